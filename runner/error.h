@@ -1,0 +1,23 @@
+/* Errors: a status and one sentence that names file, line, pass or field. */
+#ifndef FM_ERROR_H
+#define FM_ERROR_H
+
+#include "fragmark/status.h"
+
+typedef struct fm_error {
+    fm_status status;
+    char message[2048];
+} fm_error;
+
+/* Fills *err (which may be NULL) and returns status, so that `return fm_fail(...)` reads well. */
+fm_status fm_fail(fm_error *err, fm_status status, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* Puts a prefix before the message of an error that came from below; returns its status. */
+fm_status fm_error_prefix(fm_error *err, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+/* "ok", "invalid", ...: one word for each status. */
+const char *fm_status_name(fm_status status);
+
+#endif

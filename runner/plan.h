@@ -1,0 +1,68 @@
+/* methods x scenes x devices x feeds x axes -> cases. */
+#ifndef FM_PLAN_H
+#define FM_PLAN_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "error.h"
+#include "plugin.h"
+#include "settings.h"
+
+/* One chosen value of a method's own option. */
+typedef struct fm_choice {
+    char name[64], value[64];
+} fm_choice;
+
+/* One row of the summary. */
+typedef struct fm_case {
+    char id[17];       /* xxhash of all that follows but launches, frames and warmup */
+    char method[64];
+    char scene[128];   /* name of the scene as given */
+    char device[128];  /* "vulkan", "vulkan:1", "osmesa" */
+    char feed[32];     /* "raster", "compute-layer", ... */
+    fm_settings settings;
+    fm_choice choices[FM_MAX_OPTIONS];
+    size_t choice_count;
+    char skip[512];    /* not empty: recorded as not_supported with this reason, never run
+                          (k above k_max, feed or option the method does not have) */
+} fm_case;
+
+/* Lists of texts, each ending with NULL. */
+typedef struct fm_plan_request {
+    const char *spec;           /* YAML file; NULL: none */
+    const char *const *methods; /* ids; empty: all that are not controls */
+    const char *const *scenes;  /* "layers" or a file in the scene folders or a path */
+    const char *const *devices; /* empty: "vulkan" */
+    const char *const *feeds;   /* empty: "raster" */
+    const char *const *axes;    /* "KEY=VALUE[,VALUE...]", "KEY=LOW:HIGH:*FACTOR|+STEP" */
+} fm_plan_request;
+
+typedef struct fm_plan {
+    fm_case *cases;
+    size_t count;
+    uint64_t seed; /* of the run: interleaving, bootstrap */
+    uint32_t launches, frames, warmup;
+} fm_plan;
+
+/* Expands a request. Command line wins over the spec, the spec over the scene file, the scene file
+ * over defaults. Cases that differ only in a key their method does not use (k of an A-buffer)
+ * are one case. Unknown names: FM_INVALID with file, line and the nearest legal one. Refused
+ * plugins become cases with skip = "plugin_error: ...". */
+fm_status plan_expand(fm_plan *plan, const fm_plan_request *request,
+                      const fm_plugin_list *plugins, fm_error *err);
+void plan_free(fm_plan *plan);
+
+/* Names and files of all scenes in the scene folders; lists end with NULL inside. */
+typedef struct fm_scene_names {
+    char (*names)[128];
+    char (*paths)[FM_PATH_MAX_BYTES];
+    size_t count;
+} fm_scene_names;
+fm_status scene_names_list(fm_scene_names *names, fm_error *err);
+void scene_names_free(fm_scene_names *names);
+
+/* Fills settings from a scene file: key: value lines, or nothing but a name. */
+fm_status scene_file_read(fm_settings *settings, const char *path, fm_error *err);
+
+#endif

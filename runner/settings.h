@@ -1,0 +1,137 @@
+/* Every key that a spec, a scene file or -a can set: one table of names, types, ranges, defaults and
+ * help, and the struct that they fill. Scene files, spec files, `-a KEY=VALUE` and `--help` share
+ * this table and nothing else knows a key's spelling.
+ *
+ * A value that may be an axis ("k=4,8,16", "k=4:64:*2", "k=4:16:+4") is kept as a list of texts in
+ * a plan; one case has exactly one value for each key. */
+#ifndef FM_SETTINGS_H
+#define FM_SETTINGS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "error.h"
+#include "fragmark/method.h"
+
+typedef enum fm_generator { FM_GENERATOR_LAYERS, FM_GENERATOR_MESH } fm_generator;
+
+typedef enum fm_order {
+    FM_ORDER_RANDOM,      /* layers arrive in one random order */
+    FM_ORDER_RANDOM_CELL, /* a different order in each cell */
+    FM_ORDER_ASCENDING,   /* nearest first */
+    FM_ORDER_DESCENDING,
+    FM_ORDER_CELL_MAJOR,  /* all layers of a cell drawn consecutively, in one random order */
+} fm_order;
+
+typedef enum fm_depths {
+    FM_DEPTHS_UNIFORM,   /* (i + 1) / 2^m, the smallest m that keeps them below 1 */
+    FM_DEPTHS_CLUSTERED, /* eight clusters, steps of 2^-20 inside one */
+    FM_DEPTHS_COPLANAR,  /* pairs of layers share a depth */
+    FM_DEPTHS_ULP,       /* neighbouring floats from 0.5 on */
+    FM_DEPTHS_SLOPED,    /* planes that cross one another */
+} fm_depths;
+
+typedef enum fm_colours {
+    FM_COLOURS_HASH,  /* a different colour for each layer */
+    FM_COLOURS_CYCLE, /* eight colours in turn, as k+-buffer's scenes */
+    FM_COLOURS_GREY,
+} fm_colours;
+
+typedef enum fm_alphas {
+    FM_ALPHAS_CONSTANT, /* `alpha` for each fragment */
+    FM_ALPHAS_RANDOM,   /* uniform in (0, alpha] by layer */
+} fm_alphas;
+
+typedef enum fm_lock { FM_LOCK_SPIN, FM_LOCK_INTERLOCK } fm_lock;
+typedef enum fm_buffers { FM_BUFFERS_AUTO, FM_BUFFERS_BOUND, FM_BUFFERS_ADDRESS } fm_buffers;
+typedef enum fm_pool { FM_POOL_PREALLOCATED, FM_POOL_PER_FRAME } fm_pool;
+typedef enum fm_full_screen { FM_FULL_SCREEN_COMPUTE, FM_FULL_SCREEN_FRAGMENT } fm_full_screen;
+
+enum { FM_TEXT_MAX = 256, FM_PATH_MAX_BYTES = 1024 };
+
+/* One value for each key. */
+typedef struct fm_settings {
+    /* viewport */
+    uint32_t width_px, height_px;
+    fm_generator generator;
+
+    /* layers */
+    uint32_t n, r;  /* n layers, or r * k; 0: not given */
+    double pixel_density;
+    double fragment_probability;
+    uint32_t tessellation;
+    fm_order order;
+    fm_depths depths;
+    fm_colours colours;
+    fm_alphas alphas;
+    double alpha;
+    uint64_t seed;
+
+    /* mesh */
+    char mesh[FM_PATH_MAX_BYTES]; /* file; relative to the scene file that names it */
+    double eye[3], target[3], up[3]; /* eye == target: fitted to the box of the mesh */
+    double fov_deg, near_plane, far_plane; /* 0, 0: 0.4 and 1.7 of the box's distance */
+    double zoom;                 /* of the fitted camera */
+    uint32_t instances;
+    double instance_offset[3];   /* in box sizes */
+
+    /* method and run */
+    uint32_t k;
+    fm_lock lock;
+    fm_buffers buffers;
+    fm_pool pool;
+    fm_full_screen full_screen;
+    uint32_t launches, frames, warmup;
+} fm_settings;
+
+typedef enum fm_key_type {
+    FM_KEY_UINT,   /* uint32_t */
+    FM_KEY_UINT64,
+    FM_KEY_REAL,   /* double */
+    FM_KEY_VECTOR, /* double[3], "x y z" or a YAML sequence */
+    FM_KEY_ENUM,   /* int-sized enum, by the names in `values` */
+    FM_KEY_TEXT,   /* char[FM_PATH_MAX_BYTES] */
+} fm_key_type;
+
+typedef enum fm_key_scope {
+    FM_SCOPE_SCENE, /* legal in scene files, specs and -a; part of a scene's hash */
+    FM_SCOPE_CASE,  /* specs and -a; makes different cases */
+    FM_SCOPE_RUN,   /* specs and -a; one value a run: launches, frames, warmup */
+} fm_key_scope;
+
+typedef struct fm_key {
+    const char *name; /* the column of summary.csv where there is one */
+    fm_key_type type;
+    fm_key_scope scope;
+    size_t offset;           /* in fm_settings */
+    double low, high;        /* numbers: inclusive range */
+    const char *fallback;    /* default, as text */
+    const char *values[8];   /* enums */
+    const char *unit;        /* "px", "" */
+    const char *help;        /* one line */
+    fm_generator generator;  /* scene keys: which generator reads it ... */
+    bool any_generator;      /* ... or all */
+} fm_key;
+
+extern const fm_key fm_keys[];
+extern const size_t fm_key_count;
+
+/* NULL: no such key. */
+const fm_key *key_find(const char *name);
+/* The known key nearest in spelling to name: for messages. */
+const char *key_nearest(const char *name);
+
+/* All defaults. */
+void settings_default(fm_settings *settings);
+/* Sets one key from text. FM_INVALID: wrong type or out of range, saying which values are legal. */
+fm_status settings_set(fm_settings *settings, const fm_key *key, const char *text, fm_error *err);
+/* One key's value as canonical text ("0.25", "random-cell"): settings_set takes it back. */
+void settings_text(char text[FM_PATH_MAX_BYTES], const fm_settings *settings, const fm_key *key);
+/* Checks what concerns several keys (r and n both given; neither; r without k) and completes n. */
+fm_status settings_finish(fm_settings *settings, fm_error *err);
+/* xxhash of all scene keys that this settings' generator uses, as 16 hex digits. Mesh files enter by
+ * their content. */
+void settings_scene_hash(char hash[17], const fm_settings *settings);
+
+#endif

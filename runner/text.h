@@ -1,0 +1,35 @@
+/* Small text helpers. */
+#ifndef FM_TEXT_H
+#define FM_TEXT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "error.h"
+
+/* A growing text. Starts as {0}; failure to grow sticks: `failed` is set and the text stays. */
+typedef struct fm_text {
+    char *bytes; /* NUL-terminated once anything was added; owned */
+    size_t length, capacity;
+    bool failed;
+} fm_text;
+
+void text_add(fm_text *text, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void text_add_raw(fm_text *text, const char *bytes, size_t count);
+void text_free(fm_text *text);
+
+/* A whole file, NUL-terminated, at most limit_bytes. The caller frees *bytes. */
+fm_status text_read_file(char **bytes, size_t *count, const char *path, size_t limit_bytes,
+                         fm_error *err);
+/* Writes path.partial, flushes it to disk and renames it: never half a file. */
+fm_status text_write_file(const char *path, const char *bytes, size_t count, fm_error *err);
+
+/* The name with the least edit distance; NULL if none is within half of word's length. */
+const char *text_nearest(const char *word, const char *const *names, size_t count);
+
+/* Whole text as a number; false: not one, or out of the type's range. No white space, no "4x". */
+bool text_to_u64(uint64_t *value, const char *text);
+bool text_to_double(double *value, const char *text); /* finite, "C" locale */
+
+#endif

@@ -1,0 +1,37 @@
+/* Truth: every fragment of every pixel, as this device rasterises the scene; sorted by depth, then
+ * arrival; kept in a file that workers map. */
+#ifndef FM_TRUTH_H
+#define FM_TRUTH_H
+
+#include "device/device.h"
+#include "error.h"
+#include "image.h"
+#include "scene.h"
+
+typedef struct fm_truth {
+    uint32_t width_px, height_px;
+    uint32_t n;                 /* most fragments of any pixel */
+    uint64_t fragment_count;    /* F */
+    uint64_t nonempty_pixels;
+    const uint64_t *offsets;      /* [pixels + 1] */
+    const fm_fragment *fragments; /* [F], by pixel, nearest first */
+    const uint32_t *arrival;      /* [F]: rank of the i-th arriving fragment of the pixel */
+    void *map;
+    uint64_t map_bytes;
+} fm_truth;
+
+/* Captures the scene on the device (count, prefix sum, store in bands of pixels), sorts it and
+ * writes it to path, atomically. */
+fm_status truth_capture(const char *path, fm_device *device, const fm_scene *scene, fm_error *err);
+fm_status truth_open(fm_truth **truth, const char *path, fm_error *err);
+void truth_close(fm_truth *truth);
+
+/* Sum over pixels of min(f, k). */
+uint64_t truth_kept(const fm_truth *truth, uint32_t k);
+
+/* Front to back in double precision: the k nearest, or all with k = 0. The image is created. */
+fm_status truth_composite(fm_image **image, const fm_truth *truth, uint32_t k, fm_error *err);
+/* The same for one pixel's list, already in order. */
+void composite_pixel(double rgba[4], const fm_fragment *fragments, uint64_t count);
+
+#endif
