@@ -1,0 +1,75 @@
+#include "device/device.h"
+
+#include <string.h>
+
+#include "device/dummy/dummy.h"
+#include "device/osmesa/osmesa.h"
+#include "device/vulkan/vulkan.h"
+#include "text.h"
+
+const fm_device_ops *const fm_device_table[] = { &vulkan_device, &osmesa_device, &dummy_device,
+                                                 NULL };
+
+static const uint32_t format_bytes[] = {
+    [FM_FORMAT_NONE] = 0,    [FM_FORMAT_R32UI] = 4,    [FM_FORMAT_RG32UI] = 8,
+    [FM_FORMAT_RGBA32UI] = 16, [FM_FORMAT_R32F] = 4,   [FM_FORMAT_RG32F] = 8,
+    [FM_FORMAT_RGBA32F] = 16, [FM_FORMAT_RGBA8] = 4,   [FM_FORMAT_D32F] = 4,
+    [FM_FORMAT_D32F_S8] = 5,
+};
+_Static_assert(sizeof format_bytes / sizeof format_bytes[0] == FM_FORMAT_COUNT, "one a format");
+
+static const uint32_t element_bytes[] = {
+    [FM_ELEMENT_UINT] = 4,  [FM_ELEMENT_UVEC2] = 8, [FM_ELEMENT_UVEC4] = 16,
+    [FM_ELEMENT_FLOAT] = 4, [FM_ELEMENT_VEC2] = 8,  [FM_ELEMENT_VEC4] = 16,
+    [FM_ELEMENT_UINT64] = 8,
+};
+_Static_assert(sizeof element_bytes / sizeof element_bytes[0] == FM_ELEMENT_COUNT, "one each");
+
+uint32_t fm_format_bytes(fm_format format)
+{
+    return format_bytes[format];
+}
+
+uint32_t fm_element_bytes(fm_element element)
+{
+    return element_bytes[element];
+}
+
+void ledger_add(fm_ledger *ledger, fm_owner owner, uint64_t bytes)
+{
+    ledger->bytes[owner] += bytes;
+    if (ledger->bytes[owner] > ledger->peak_bytes[owner])
+        ledger->peak_bytes[owner] = ledger->bytes[owner];
+}
+
+void ledger_remove(fm_ledger *ledger, fm_owner owner, uint64_t bytes)
+{
+    ledger->bytes[owner] -= bytes;
+}
+
+fm_status device_open(fm_device **device, const char *name, const fm_device_desc *desc,
+                      fm_error *err)
+{
+    const char *colon = strchr(name, ':');
+    const size_t length = colon != NULL ? (size_t)(colon - name) : strlen(name);
+    const char *known[8];
+    size_t count = 0;
+    *device = NULL;
+    for (const fm_device_ops *const *ops = fm_device_table; *ops != NULL; ops++) {
+        if (strlen((*ops)->name) == length && strncmp((*ops)->name, name, length) == 0) {
+            fm_device_desc chosen = *desc;
+            chosen.selector = colon != NULL ? colon + 1 : NULL;
+            return (*ops)->open(device, &chosen, err);
+        }
+        known[count++] = (*ops)->name;
+    }
+    const char *nearest = text_nearest(name, known, count);
+    return fm_fail(err, FM_INVALID, "no device '%s'; the nearest is '%s'", name,
+                   nearest != NULL ? nearest : known[0]);
+}
+
+void device_close(fm_device *device)
+{
+    if (device != NULL)
+        device->ops->close(device);
+}
