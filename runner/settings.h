@@ -13,6 +13,7 @@
 
 #include "error.h"
 #include "fragmark/method.h"
+#include "text.h"
 
 typedef enum fm_generator { FM_GENERATOR_LAYERS, FM_GENERATOR_MESH } fm_generator;
 
@@ -49,6 +50,7 @@ typedef enum fm_pool { FM_POOL_PREALLOCATED, FM_POOL_PER_FRAME } fm_pool;
 typedef enum fm_full_screen { FM_FULL_SCREEN_COMPUTE, FM_FULL_SCREEN_FRAGMENT } fm_full_screen;
 
 enum { FM_TEXT_MAX = 256, FM_PATH_MAX_BYTES = 1024 };
+#define FM_NOT_GIVEN UINT32_MAX
 
 /* One value for each key. */
 typedef struct fm_settings {
@@ -57,7 +59,8 @@ typedef struct fm_settings {
     fm_generator generator;
 
     /* layers */
-    uint32_t n, r;  /* n layers, or r * k; 0: not given */
+    uint32_t n;  /* layers; 0 is an empty scene; FM_NOT_GIVEN until settings_finish. Meshes: 0 */
+    uint32_t r;  /* n = r * k; 0: not given. Kept for the record: n alone makes the scene */
     double pixel_density;
     double fragment_probability;
     uint32_t tessellation;
@@ -77,7 +80,7 @@ typedef struct fm_settings {
     double instance_offset[3];   /* in box sizes */
 
     /* method and run */
-    uint32_t k;
+    uint32_t k; /* 0: the method does not use it */
     fm_lock lock;
     fm_buffers buffers;
     fm_pool pool;
@@ -112,6 +115,8 @@ typedef struct fm_key {
     const char *help;        /* one line */
     fm_generator generator;  /* scene keys: which generator reads it ... */
     bool any_generator;      /* ... or all */
+    bool optional;           /* FM_KEY_UINT: "none" is a value too, kept as `absent` */
+    uint32_t absent;
 } fm_key;
 
 extern const fm_key fm_keys[];
@@ -121,6 +126,12 @@ extern const size_t fm_key_count;
 const fm_key *key_find(const char *name);
 /* The known key nearest in spelling to name: for messages. */
 const char *key_nearest(const char *name);
+/* Whether scenes of this generator read the key; true for keys that are not a scene's. */
+bool key_is_read(const fm_key *key, fm_generator generator);
+/* What values a key takes, in a few words: "1..16384", "spin|interlock". */
+void key_domain(char text[FM_TEXT_MAX], const fm_key *key);
+/* The whole table as aligned lines, for --help. */
+void keys_help(fm_text *text);
 
 /* All defaults. */
 void settings_default(fm_settings *settings);
@@ -128,10 +139,17 @@ void settings_default(fm_settings *settings);
 fm_status settings_set(fm_settings *settings, const fm_key *key, const char *text, fm_error *err);
 /* One key's value as canonical text ("0.25", "random-cell"): settings_set takes it back. */
 void settings_text(char text[FM_PATH_MAX_BYTES], const fm_settings *settings, const fm_key *key);
-/* Checks what concerns several keys (r and n both given; neither; r without k) and completes n. */
+/* Checks what concerns several keys and completes n: n = r * k, r being 4 if neither n nor r was given.
+ * FM_INVALID: n and r that contradict each other, neither without a k, too many fragments, a mesh
+ * scene without a mesh, clip planes out of order. Finished settings, also with k then set to 0
+ * (not used), pass again unchanged, so that they can travel as texts. */
 fm_status settings_finish(fm_settings *settings, fm_error *err);
 /* xxhash of all scene keys that this settings' generator uses, as 16 hex digits. Mesh files enter by
- * their content. */
+ * their content (their name, if they cannot be read); r does not enter, for n does. */
 void settings_scene_hash(char hash[17], const fm_settings *settings);
+/* The same for a mesh whose digest is known: reads no file. */
+void settings_scene_hash_of(char hash[17], const fm_settings *settings, uint64_t mesh_digest);
+/* The digest of a mesh file's content. FM_IO: it cannot be read. */
+fm_status settings_mesh_digest(uint64_t *digest, const char *path, fm_error *err);
 
 #endif

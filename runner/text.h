@@ -31,5 +31,7 @@ const char *text_nearest(const char *word, const char *const *names, size_t coun
 /* Whole text as a number; false: not one, or out of the type's range. No white space, no "4x". */
 bool text_to_u64(uint64_t *value, const char *text);
 bool text_to_double(double *value, const char *text); /* finite, "C" locale */
+/* The shortest text, in the "C" locale, that text_to_double reads back as the same finite value. */
+void text_from_double(char text[32], double value);
 
 #endif

@@ -1,0 +1,170 @@
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "settings.h"
+
+_Static_assert(sizeof(fm_generator) == sizeof(unsigned) && sizeof(fm_order) == sizeof(unsigned) &&
+                   sizeof(fm_depths) == sizeof(unsigned) &&
+                   sizeof(fm_colours) == sizeof(unsigned) &&
+                   sizeof(fm_alphas) == sizeof(unsigned) && sizeof(fm_lock) == sizeof(unsigned) &&
+                   sizeof(fm_buffers) == sizeof(unsigned) && sizeof(fm_pool) == sizeof(unsigned) &&
+                   sizeof(fm_full_screen) == sizeof(unsigned),
+               "FM_KEY_ENUM stores an unsigned");
+
+#define AT(field) .offset = offsetof(fm_settings, field)
+#define ANY       .scope = FM_SCOPE_SCENE, .any_generator = true
+#define LAYERS    .scope = FM_SCOPE_SCENE, .generator = FM_GENERATOR_LAYERS
+#define MESH      .scope = FM_SCOPE_SCENE, .generator = FM_GENERATOR_MESH
+
+/* clang-format off */
+const fm_key fm_keys[] = {
+    { "width_px", FM_KEY_UINT, ANY, AT(width_px), .low = 1, .high = 16384, .fallback = "854",
+      .unit = "px", .help = "viewport" },
+    { "height_px", FM_KEY_UINT, ANY, AT(height_px), .low = 1, .high = 16384, .fallback = "480",
+      .unit = "px", .help = "viewport" },
+    { "generator", FM_KEY_ENUM, ANY, AT(generator), .values = { "layers", "mesh" },
+      .fallback = "layers", .help = "what makes the scene" },
+    { "n", FM_KEY_UINT, LAYERS, AT(n), .low = 0, .high = 65536, .fallback = "none",
+      .optional = true, .absent = FM_NOT_GIVEN, .help = "layers" },
+    { "r", FM_KEY_UINT, LAYERS, AT(r), .low = 1, .high = 65536, .fallback = "none",
+      .optional = true, .absent = 0, .help = "layers for each of k: n = r k (4 without n and r)" },
+    { "pixel_density", FM_KEY_REAL, LAYERS, AT(pixel_density), .low = 1e-9, .high = 1,
+      .fallback = "0.25", .help = "part of the viewport that layers cover" },
+    { "fragment_probability", FM_KEY_REAL, LAYERS, AT(fragment_probability), .low = 0, .high = 1,
+      .fallback = "1", .help = "that a layer has a fragment at a pixel" },
+    { "tessellation", FM_KEY_UINT, LAYERS, AT(tessellation), .low = 1, .high = 64,
+      .fallback = "16", .help = "t: each layer is t by t cells" },
+    { "order", FM_KEY_ENUM, LAYERS, AT(order),
+      .values = { "random", "random-cell", "ascending", "descending", "cell-major" },
+      .fallback = "random", .help = "in which layers arrive" },
+    { "depths", FM_KEY_ENUM, LAYERS, AT(depths),
+      .values = { "uniform", "clustered", "coplanar", "ulp", "sloped" },
+      .fallback = "uniform", .help = "of the layers" },
+    { "colours", FM_KEY_ENUM, LAYERS, AT(colours), .values = { "hash", "cycle", "grey" },
+      .fallback = "hash", .help = "of the layers" },
+    { "alphas", FM_KEY_ENUM, LAYERS, AT(alphas), .values = { "constant", "random" },
+      .fallback = "constant", .help = "alpha itself, or up to it" },
+    { "alpha", FM_KEY_REAL, ANY, AT(alpha), .low = 0, .high = 1, .fallback = "0.3",
+      .help = "opacity of a fragment" },
+    { "seed", FM_KEY_UINT64, ANY, AT(seed), .low = 0, .high = 18446744073709551615.0,
+      .fallback = "1", .help = "of everything random" },
+    { "mesh", FM_KEY_TEXT, MESH, AT(mesh), .fallback = "",
+      .help = "OBJ, PLY or 3DS file, beside the file that names it" },
+    { "eye", FM_KEY_VECTOR, MESH, AT(eye), .low = -1e6, .high = 1e6, .fallback = "0 0 0",
+      .help = "camera; eye = target: fitted to the mesh" },
+    { "target", FM_KEY_VECTOR, MESH, AT(target), .low = -1e6, .high = 1e6, .fallback = "0 0 0",
+      .help = "what the camera looks at" },
+    { "up", FM_KEY_VECTOR, MESH, AT(up), .low = -1e6, .high = 1e6, .fallback = "0 1 0",
+      .help = "camera" },
+    { "fov_deg", FM_KEY_REAL, MESH, AT(fov_deg), .low = 1, .high = 170, .fallback = "45",
+      .unit = "deg", .help = "vertical field of view" },
+    { "near_plane", FM_KEY_REAL, MESH, AT(near_plane), .low = 0, .high = 1e9, .fallback = "0",
+      .help = "both 0: 0.4 and 1.7 of the distance" },
+    { "far_plane", FM_KEY_REAL, MESH, AT(far_plane), .low = 0, .high = 1e9, .fallback = "0",
+      .help = "clip plane" },
+    { "zoom", FM_KEY_REAL, MESH, AT(zoom), .low = 0.001, .high = 1000, .fallback = "1",
+      .help = "of the fitted camera" },
+    { "instances", FM_KEY_UINT, MESH, AT(instances), .low = 1, .high = 4096, .fallback = "1",
+      .help = "copies of the mesh" },
+    { "instance_offset", FM_KEY_VECTOR, MESH, AT(instance_offset), .low = -1e4, .high = 1e4,
+      .fallback = "0 0 0", .help = "from copy to copy, in box sizes" },
+    { "k", FM_KEY_UINT, FM_SCOPE_CASE, AT(k), .low = 1, .high = 4096, .fallback = "8",
+      .optional = true, .absent = 0, .help = "nearest fragments to keep" },
+    { "lock", FM_KEY_ENUM, FM_SCOPE_CASE, AT(lock), .values = { "spin", "interlock" },
+      .fallback = "spin", .help = "of exclusive passes" },
+    { "buffers", FM_KEY_ENUM, FM_SCOPE_CASE, AT(buffers), .values = { "auto", "bound", "address" },
+      .fallback = "auto", .help = "how shaders reach them" },
+    { "pool", FM_KEY_ENUM, FM_SCOPE_CASE, AT(pool), .values = { "preallocated", "per-frame" },
+      .fallback = "preallocated", .help = "when buffers are allocated" },
+    { "full_screen", FM_KEY_ENUM, FM_SCOPE_CASE, AT(full_screen),
+      .values = { "compute", "fragment" }, .fallback = "compute", .help = "passes over pixels" },
+    { "launches", FM_KEY_UINT, FM_SCOPE_RUN, AT(launches), .low = 1, .high = 1000,
+      .fallback = "5", .help = "processes that measure a case" },
+    { "frames", FM_KEY_UINT, FM_SCOPE_RUN, AT(frames), .low = 1, .high = 10000,
+      .fallback = "5", .help = "timed frames of a launch" },
+    { "warmup", FM_KEY_UINT, FM_SCOPE_RUN, AT(warmup), .low = 0, .high = 100,
+      .fallback = "2", .help = "frames before the timed ones" },
+};
+/* clang-format on */
+enum { KEY_COUNT = sizeof fm_keys / sizeof fm_keys[0] };
+const size_t fm_key_count = KEY_COUNT;
+
+const fm_key *key_find(const char *name)
+{
+    for (size_t i = 0; i < KEY_COUNT; i++)
+        if (strcmp(fm_keys[i].name, name) == 0)
+            return &fm_keys[i];
+    return NULL;
+}
+
+const char *key_nearest(const char *name)
+{
+    const char *names[KEY_COUNT];
+    for (size_t i = 0; i < KEY_COUNT; i++)
+        names[i] = fm_keys[i].name;
+    return text_nearest(name, names, KEY_COUNT);
+}
+
+bool key_is_read(const fm_key *key, fm_generator generator)
+{
+    return key->scope != FM_SCOPE_SCENE || key->any_generator || key->generator == generator;
+}
+
+static void enum_domain(char text[FM_TEXT_MAX], const fm_key *key)
+{
+    size_t length = 0;
+    text[0] = '\0';
+    for (size_t i = 0; i < sizeof key->values / sizeof key->values[0]; i++)
+        if (key->values[i] != NULL && length < FM_TEXT_MAX)
+            length += (size_t)snprintf(text + length, FM_TEXT_MAX - length, "%s%s",
+                                       i > 0 ? "|" : "", key->values[i]);
+}
+
+void key_domain(char text[FM_TEXT_MAX], const fm_key *key)
+{
+    char low[32], high[32];
+    text_from_double(low, key->low);
+    text_from_double(high, key->high);
+    switch (key->type) {
+    case FM_KEY_UINT:
+    case FM_KEY_REAL:
+        snprintf(text, FM_TEXT_MAX, "%s..%s", low, high);
+        return;
+    case FM_KEY_UINT64:
+        snprintf(text, FM_TEXT_MAX, "0..18446744073709551615");
+        return;
+    case FM_KEY_VECTOR:
+        snprintf(text, FM_TEXT_MAX, "\"x y z\", each %s..%s", low, high);
+        return;
+    case FM_KEY_ENUM:
+        enum_domain(text, key);
+        return;
+    case FM_KEY_TEXT:
+        snprintf(text, FM_TEXT_MAX, "text");
+        return;
+    }
+}
+
+static const char *const scope_title[] = {
+    [FM_SCOPE_SCENE] = "Keys of a scene",
+    [FM_SCOPE_CASE] = "Keys of a case",
+    [FM_SCOPE_RUN] = "Keys of a run (one value)",
+};
+
+void keys_help(fm_text *text)
+{
+    char domain[FM_TEXT_MAX];
+    for (size_t i = 0; i < KEY_COUNT; i++) {
+        const fm_key *key = &fm_keys[i];
+        if (i == 0 || key->scope != key[-1].scope)
+            text_add(text, "%s%s:\n", i > 0 ? "\n" : "", scope_title[key->scope]);
+        key_domain(domain, key);
+        text_add(text, "  %-20s  %s%s%s", key->name, key->help, key->unit != NULL ? ", " : "",
+                 key->unit != NULL ? key->unit : "");
+        text_add(text, "\n  %-20s  %s", "", domain);
+        if (key->fallback[0] != '\0')
+            text_add(text, " (%s)", key->fallback);
+        text_add(text, "\n");
+    }
+}
