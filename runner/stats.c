@@ -1,0 +1,127 @@
+#include "stats.h"
+
+#include <assert.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+
+enum { REPLICATES = 1000, LOW_INDEX = 24, HIGH_INDEX = 975 }; /* 2.5 % and 97.5 % */
+
+/* NAN sorts last, so that the order is total and qsort stays defined. */
+static int compare_doubles(const void *left, const void *right)
+{
+    const double a = *(const double *)left, b = *(const double *)right;
+    if (isnan(a) || isnan(b))
+        return (int)(isnan(a) != 0) - (int)(isnan(b) != 0);
+    return (a > b) - (a < b);
+}
+
+double stats_median(double *values, size_t count)
+{
+    if (count == 0)
+        return NAN;
+    qsort(values, count, sizeof *values, compare_doubles);
+    const size_t middle = count / 2;
+    return count % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
+
+/* The samples by group; groups without a sample are left out. */
+typedef struct grouped {
+    double *values;  /* [count] */
+    size_t *offsets; /* [group_count + 1] */
+    double *drawn;   /* room for the largest replicate */
+    uint32_t group_count;
+} grouped;
+
+static void grouped_free(grouped *g)
+{
+    free(g->values);
+    free(g->offsets);
+    free(g->drawn);
+}
+
+/* A stable counting sort; false without memory. */
+static bool grouped_build(grouped *g, const fm_samples *samples)
+{
+    size_t largest = 0, written = 0;
+    *g = (grouped){ .values = calloc(samples->count, sizeof(double)),
+                    .offsets = calloc((size_t)samples->group_count + 1, sizeof(size_t)) };
+    size_t *sizes = calloc(samples->group_count, sizeof *sizes);
+    size_t *starts = calloc(samples->group_count, sizeof *starts);
+    const bool has_room =
+        g->values != NULL && g->offsets != NULL && sizes != NULL && starts != NULL;
+    for (size_t i = 0; has_room && i < samples->count; i++) {
+        assert(samples->group_of[i] < samples->group_count);
+        sizes[samples->group_of[i]]++;
+    }
+    for (uint32_t group = 0; has_room && group < samples->group_count; group++) {
+        starts[group] = written;
+        written += sizes[group];
+        if (sizes[group] > 0)
+            g->offsets[++g->group_count] = written;
+        largest = sizes[group] > largest ? sizes[group] : largest;
+    }
+    for (size_t i = 0; has_room && i < samples->count; i++)
+        g->values[starts[samples->group_of[i]]++] = samples->values[i];
+    free(starts);
+    free(sizes);
+    if (has_room)
+        g->drawn = calloc(largest * g->group_count, sizeof(double));
+    return g->drawn != NULL;
+}
+
+static double replicate(grouped *g, uint64_t *state)
+{
+    size_t drawn = 0;
+    for (uint32_t i = 0; i < g->group_count; i++) {
+        const uint32_t group = random_below(state, g->group_count);
+        const size_t start = g->offsets[group], size = g->offsets[group + 1] - start;
+        for (size_t j = 0; j < size; j++)
+            g->drawn[drawn++] = g->values[start + random_below(state, (uint32_t)size)];
+    }
+    return stats_median(g->drawn, drawn);
+}
+
+fm_interval stats_bootstrap(const fm_samples *samples, uint64_t seed)
+{
+    fm_interval result = { NAN, NAN, NAN };
+    grouped g = { 0 };
+    double *medians = NULL;
+    if (samples->count == 0)
+        return result;
+    assert(samples->count <= UINT32_MAX);
+    medians = calloc(REPLICATES, sizeof *medians);
+    if (medians == NULL || !grouped_build(&g, samples))
+        goto out;
+    for (size_t i = 0; i < REPLICATES; i++)
+        medians[i] = replicate(&g, &seed);
+    qsort(medians, REPLICATES, sizeof *medians, compare_doubles);
+    result.low = medians[LOW_INDEX];
+    result.high = medians[HIGH_INDEX];
+    result.median = stats_median(g.values, samples->count);
+out:
+    grouped_free(&g);
+    free(medians);
+    return result;
+}
+
+uint64_t random_next(uint64_t *state)
+{
+    uint64_t z = *state += 0x9E3779B97F4A7C15u;
+    z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9u;
+    z = (z ^ z >> 27) * 0x94D049BB133111EBu;
+    return z ^ z >> 31;
+}
+
+uint32_t random_below(uint64_t *state, uint32_t bound)
+{
+    assert(bound > 0);
+    /* Lemire's multiplication; the lowest products are rejected, for they would favour some values.
+     */
+    const uint32_t reject_below = (0u - bound) % bound;
+    for (;;) {
+        const uint64_t product = (random_next(state) >> 32) * bound;
+        if ((uint32_t)product >= reject_below)
+            return (uint32_t)(product >> 32);
+    }
+}
