@@ -43,22 +43,41 @@ typedef struct fm_scene {
     uint32_t vertex_count;
     uint32_t *indices;
     uint32_t index_count;
-    float *clip_from_object; /* [instances][16], column major */
+    float *clip_from_object; /* [instances][16], column major; y down, z 0..1 */
     uint32_t instances;
 } fm_scene;
 
 /* Builds the scene that settings describe; settings must have passed settings_finish.
- * FM_IO, FM_INVALID: meshes that are missing, empty, truncated, not finite or badly indexed. */
+ * FM_IO, FM_INVALID: meshes that are missing, empty, truncated, not finite or badly indexed. Of an
+ * OBJ file, which states no counts, only what is cut within a line or refers to lost vertices shows.
+ * FM_INVALID, FM_NO_MEMORY: scenes too large to hold. */
 fm_status scene_create(fm_scene **scene, const fm_settings *settings, fm_error *err);
 void scene_destroy(fm_scene *scene);
 
-/* The layers generator: fills rect, layers, order, survival_threshold (generators/layers.c). */
+/* The layers generator: fills rect, layers, order, survival_threshold (generators/layers.c).
+ *
+ * Which fragments live, bit for bit the same in C and GLSL:
+ *
+ *     uint32_t h = x + y * 0x9E3779B1u + layer * 0x85EBCA77u + seed32 * 0xC2B2AE3Du;
+ *     h ^= h >> 16; h *= 0x7FEB352Du; h ^= h >> 15; h *= 0x846CA68Bu; h ^= h >> 16;
+ *     lives = h < survival_threshold;
+ *
+ * x, y pixel; layer its rank in `layers`; seed32 = (uint32_t)(seed ^ seed >> 32). At threshold
+ * 0xFFFFFFFF all live and the test is skipped. Cells of a tessellation t go row by row:
+ * cell = cell_y * t + cell_x, which is also the row of `order` that random-cell uses. */
 fm_status layers_generate(fm_scene *scene, fm_error *err);
-/* The mesh loader: fills vertices, indices, clip_from_object (runner/mesh.c). */
+/* Where cell i of t begins, in px, and cell i - 1 ends; i = 0..t. begin, end: rect's x0, x1 or y0, y1.
+ * Cells of less than a pixel may be empty. */
+uint32_t layers_border(uint32_t begin, uint32_t end, uint32_t i, uint32_t t);
+/* The mesh loader: fills vertices, indices, clip_from_object (runner/mesh.c).
+ * Vertices have a stone base colour times a two-sided Lambert shade of a fixed light, with
+ * settings.alpha; instances share them. The box that camera and planes are fitted to holds all
+ * instances; instance i is moved by i * instance_offset * the size of the file's own box. */
 fm_status mesh_load(fm_scene *scene, fm_error *err);
 
 /* Closed form of a layers scene: the fragments of one pixel in arrival order; room for scene->n.
- * Returns how many. The same integer hash as layers.glsl decides which live. */
+ * Returns how many. Flat layers are exact; the depth of sloped ones is evaluated in double and
+ * rounded once, which a rasteriser's interpolation may miss by about 2 ulp. */
 typedef struct fm_fragment {
     float depth;
     uint32_t colour;

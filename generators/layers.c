@@ -1,0 +1,298 @@
+/* The papers' synthetic scene: n layers over a centred rectangle, from a seed. */
+#include <assert.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene.h"
+#include "stats.h"
+
+static const uint32_t all_live = 0xFFFFFFFFu;
+static const uint64_t max_order_bytes = UINT64_C(2) << 30;
+enum { CLUSTERS = 8 };
+
+/* Independent streams of random numbers of one seed. */
+enum { STREAM_ORDER = 1, STREAM_ALPHA = 2, STREAM_SLOPE = 3 };
+
+static uint64_t stream(uint64_t seed, uint64_t number)
+{
+    uint64_t state = seed ^ number * 0xD6E8FEB86659FD93u;
+    return random_next(&state);
+}
+
+static uint32_t seed_word(uint64_t seed)
+{
+    return (uint32_t)(seed ^ seed >> 32);
+}
+
+/* The finaliser that layers.glsl shares; see scene.h. */
+static uint32_t mix(uint32_t h)
+{
+    h ^= h >> 16;
+    h *= 0x7FEB352Du;
+    h ^= h >> 15;
+    h *= 0x846CA68Bu;
+    h ^= h >> 16;
+    return h;
+}
+
+static bool fragment_lives(const fm_scene *scene, uint32_t x, uint32_t y, uint32_t layer)
+{
+    const uint32_t h =
+        x + y * 0x9E3779B1u + layer * 0x85EBCA77u + seed_word(scene->settings.seed) * 0xC2B2AE3Du;
+    return scene->survival_threshold == all_live || mix(h) < scene->survival_threshold;
+}
+
+static uint32_t threshold_of(double probability)
+{
+    return probability >= 1.0 ? all_live : (uint32_t)(probability * 4294967296.0);
+}
+
+static uint32_t clamp_px(double size, uint32_t limit)
+{
+    return size < 1.0 ? 1 : size > limit ? limit : (uint32_t)size;
+}
+
+static fm_rect centred_rect(const fm_settings *s)
+{
+    const double area = s->pixel_density * s->width_px * s->height_px;
+    const uint32_t height = clamp_px(round(s->height_px * sqrt(s->pixel_density)), s->height_px);
+    const uint32_t width = clamp_px(round(area / height), s->width_px);
+    const uint32_t x0 = (s->width_px - width) / 2, y0 = (s->height_px - height) / 2;
+    return (fm_rect){ x0, y0, x0 + width, y0 + height };
+}
+
+/* (i + 1) / 2^m, below 1 for all i < count: exact, as count < 2^24. */
+static float uniform_depth(uint32_t i, uint32_t count)
+{
+    int exponent = 0;
+    while (count >> exponent != 0)
+        exponent++;
+    return (float)ldexp((double)i + 1.0, -exponent);
+}
+
+/* Steps of 2^-20 from the middle of each eighth. */
+static float clustered_depth(uint32_t i, uint32_t count)
+{
+    const uint64_t cluster = (uint64_t)i * CLUSTERS / count;
+    const uint64_t first = (cluster * count + CLUSTERS - 1) / CLUSTERS;
+    return (float)((double)(2 * cluster + 1) / (2 * CLUSTERS) + ldexp((double)(i - first), -20));
+}
+
+static float ulp_depth(uint32_t i)
+{
+    const uint32_t half_bits = 0x3F000000u, bits = half_bits + i;
+    float depth;
+    memcpy(&depth, &bits, sizeof depth);
+    return depth;
+}
+
+/* Uniform in [-1, 1]. */
+static double random_signed(uint64_t *state)
+{
+    return ldexp((double)(random_next(state) >> 11), -52) - 1.0;
+}
+
+/* Within 0.04 of the middle in the centre, so that nearly all planes cross inside the rectangle;
+ * 0.5 - 0.04 - 2 * 0.2195 > 0.02 keeps the corners of the square in range. */
+static void sloped_plane(fm_layer *layer, uint64_t *state)
+{
+    layer->depth = (float)(0.5 + 0.04 * random_signed(state));
+    layer->slope_x = (float)(0.2195 * random_signed(state));
+    layer->slope_y = (float)(0.2195 * random_signed(state));
+}
+
+static int compare_depths(const void *left, const void *right)
+{
+    const float a = ((const fm_layer *)left)->depth, b = ((const fm_layer *)right)->depth;
+    return (a > b) - (a < b);
+}
+
+static void fill_depths(fm_scene *scene)
+{
+    const uint32_t n = scene->n;
+    uint64_t state = stream(scene->settings.seed, STREAM_SLOPE);
+    for (uint32_t i = 0; i < n; i++) {
+        switch (scene->settings.depths) {
+        case FM_DEPTHS_UNIFORM:
+            scene->layers[i].depth = uniform_depth(i, n);
+            break;
+        case FM_DEPTHS_CLUSTERED:
+            scene->layers[i].depth = clustered_depth(i, n);
+            break;
+        case FM_DEPTHS_COPLANAR:
+            scene->layers[i].depth = uniform_depth(i / 2, (n + 1) / 2);
+            break;
+        case FM_DEPTHS_ULP:
+            scene->layers[i].depth = ulp_depth(i);
+            break;
+        case FM_DEPTHS_SLOPED:
+            sloped_plane(&scene->layers[i], &state);
+            break;
+        }
+    }
+    if (scene->settings.depths == FM_DEPTHS_SLOPED)
+        qsort(scene->layers, n, sizeof *scene->layers, compare_depths);
+}
+
+/* 0xBBGGRR, before alpha. */
+static uint32_t base_colour(const fm_settings *settings, uint32_t layer)
+{
+    static const uint32_t cycle[8] = { 0x3030E0, 0x30C030, 0xE06030, 0x30D0E0,
+                                       0xC040C0, 0xD0C030, 0x4090F0, 0xC8C8C8 };
+    switch (settings->colours) {
+    case FM_COLOURS_HASH:
+        return mix(layer * 0x85EBCA77u + seed_word(settings->seed) * 0xC2B2AE3Du + 1u) & 0xFFFFFFu;
+    case FM_COLOURS_CYCLE:
+        return cycle[layer % 8];
+    case FM_COLOURS_GREY:
+        return 0x808080;
+    }
+    return 0;
+}
+
+static uint32_t premultiplied(uint32_t bgr, uint32_t alpha)
+{
+    uint32_t colour = alpha << 24;
+    for (uint32_t shift = 0; shift < 24; shift += 8)
+        colour |= ((bgr >> shift & 0xFFu) * alpha + 127u) / 255u << shift;
+    return colour;
+}
+
+static void fill_colours(fm_scene *scene)
+{
+    const fm_settings *settings = &scene->settings;
+    uint64_t state = stream(settings->seed, STREAM_ALPHA);
+    for (uint32_t i = 0; i < scene->n; i++) {
+        uint32_t alpha = (uint32_t)lround(settings->alpha * 255.0);
+        if (settings->alphas == FM_ALPHAS_RANDOM && alpha > 0)
+            alpha = 1 + random_below(&state, alpha);
+        scene->layers[i].colour = premultiplied(base_colour(settings, i), alpha);
+    }
+}
+
+/* Fisher-Yates. */
+static void shuffle(uint32_t *row, uint32_t count, uint64_t *state)
+{
+    for (uint32_t i = count; i > 1; i--) {
+        const uint32_t j = random_below(state, i), kept = row[j];
+        row[j] = row[i - 1];
+        row[i - 1] = kept;
+    }
+}
+
+static void fill_order(fm_scene *scene)
+{
+    const uint32_t n = scene->n;
+    uint64_t state = stream(scene->settings.seed, STREAM_ORDER);
+    const bool is_shuffled = scene->settings.order == FM_ORDER_RANDOM ||
+                             scene->settings.order == FM_ORDER_RANDOM_CELL ||
+                             scene->settings.order == FM_ORDER_CELL_MAJOR;
+    for (uint32_t r = 0; r < scene->order_rows; r++) {
+        uint32_t *row = scene->order + (size_t)r * n;
+        for (uint32_t i = 0; i < n; i++)
+            row[i] = scene->settings.order == FM_ORDER_DESCENDING ? n - 1 - i : i;
+        if (is_shuffled)
+            shuffle(row, n, &state);
+    }
+}
+
+/* How many layers keep exact, different depths below 1. */
+static uint32_t max_layers(fm_depths depths)
+{
+    switch (depths) {
+    case FM_DEPTHS_UNIFORM:
+    case FM_DEPTHS_COPLANAR:
+    case FM_DEPTHS_SLOPED:
+        return (1u << 24) - 1;
+    case FM_DEPTHS_CLUSTERED:
+        return CLUSTERS << 16;
+    case FM_DEPTHS_ULP:
+        return 1u << 23;
+    }
+    return 0;
+}
+
+static fm_status allocate(fm_scene *scene, fm_error *err)
+{
+    const uint32_t n = scene->n;
+    if (n > max_layers(scene->settings.depths))
+        return fm_fail(err, FM_INVALID, "n: %" PRIu32 " layers; these depths hold %" PRIu32, n,
+                       max_layers(scene->settings.depths));
+    const uint64_t bytes = (uint64_t)scene->order_rows * n * sizeof *scene->order;
+    if (bytes > max_order_bytes)
+        return fm_fail(err, FM_NO_MEMORY,
+                       "order random-cell: %" PRIu32 " cells of %" PRIu32 " layers need %" PRIu64
+                       " bytes; at most %" PRIu64,
+                       scene->order_rows, n, bytes, max_order_bytes);
+    if (n == 0)
+        return FM_OK;
+    scene->layers = calloc(n, sizeof *scene->layers);
+    scene->order = calloc(scene->order_rows, (size_t)n * sizeof *scene->order);
+    if (scene->layers == NULL || scene->order == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "layers: %" PRIu64 " bytes",
+                       bytes + n * sizeof(fm_layer));
+    return FM_OK;
+}
+
+fm_status layers_generate(fm_scene *scene, fm_error *err)
+{
+    const uint32_t t = scene->settings.tessellation;
+    assert(t > 0 && scene->width_px > 0 && scene->height_px > 0);
+    scene->n = scene->settings.n;
+    scene->order_rows = scene->settings.order == FM_ORDER_RANDOM_CELL ? t * t : 1;
+    scene->rect = centred_rect(&scene->settings);
+    scene->survival_threshold = threshold_of(scene->settings.fragment_probability);
+    const fm_status status = allocate(scene, err);
+    if (status != FM_OK || scene->n == 0)
+        return status;
+    scene->triangles = (uint64_t)2 * t * t * scene->n;
+    fill_depths(scene);
+    fill_colours(scene);
+    fill_order(scene);
+    return FM_OK;
+}
+
+uint32_t layers_border(uint32_t begin, uint32_t end, uint32_t i, uint32_t t)
+{
+    return begin + (i * (end - begin) + t / 2) / t;
+}
+
+/* The one cell whose borders hold the pixel; empty cells are stepped over. */
+static uint32_t cell_of(uint32_t begin, uint32_t end, uint32_t px, uint32_t t)
+{
+    uint32_t i = (uint32_t)((uint64_t)(px - begin) * t / (end - begin));
+    while (i > 0 && layers_border(begin, end, i, t) > px)
+        i--;
+    while (layers_border(begin, end, i + 1, t) <= px)
+        i++;
+    return i;
+}
+
+static float depth_at(const fm_layer *layer, double x_ndc, double y_ndc)
+{
+    return (float)((double)layer->depth + (double)layer->slope_x * x_ndc +
+                   (double)layer->slope_y * y_ndc);
+}
+
+uint32_t layers_fragments(fm_fragment *fragments, const fm_scene *scene, uint32_t x, uint32_t y)
+{
+    const fm_rect *rect = &scene->rect;
+    const uint32_t t = scene->settings.tessellation;
+    if (x < rect->x0 || x >= rect->x1 || y < rect->y0 || y >= rect->y1)
+        return 0;
+    const double x_ndc = 2.0 * (x + 0.5) / scene->width_px - 1.0;
+    const double y_ndc = 2.0 * (y + 0.5) / scene->height_px - 1.0;
+    const uint32_t row = scene->order_rows == 1 ? 0
+                                                : cell_of(rect->y0, rect->y1, y, t) * t +
+                                                      cell_of(rect->x0, rect->x1, x, t);
+    uint32_t count = 0;
+    for (uint32_t slot = 0; slot < scene->n; slot++) {
+        const uint32_t layer = scene->order[(size_t)row * scene->n + slot];
+        if (fragment_lives(scene, x, y, layer))
+            fragments[count++] = (fm_fragment){ depth_at(&scene->layers[layer], x_ndc, y_ndc),
+                                                scene->layers[layer].colour };
+    }
+    return count;
+}

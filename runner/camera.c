@@ -1,0 +1,154 @@
+#include "camera.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct vec3 {
+    double x, y, z;
+} vec3;
+
+/* An orthonormal frame: right, up, and back (from the target towards the eye). */
+typedef struct view {
+    vec3 eye, right, up, back;
+} view;
+
+typedef struct lens {
+    double scale_x, scale_y; /* cotangents of the half angles */
+    double near, far;
+} lens;
+
+static vec3 vec3_of(const double v[3])
+{
+    return (vec3){ v[0], v[1], v[2] };
+}
+
+static vec3 minus(vec3 a, vec3 b)
+{
+    return (vec3){ a.x - b.x, a.y - b.y, a.z - b.z };
+}
+
+static vec3 plus_scaled(vec3 a, vec3 b, double s)
+{
+    return (vec3){ a.x + s * b.x, a.y + s * b.y, a.z + s * b.z };
+}
+
+static double dot(vec3 a, vec3 b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+static vec3 cross(vec3 a, vec3 b)
+{
+    return (vec3){ a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
+}
+
+/* Zero stays zero. */
+static vec3 normalized(vec3 a)
+{
+    const double length = sqrt(dot(a, a));
+    return length > 0.0 ? (vec3){ a.x / length, a.y / length, a.z / length } : (vec3){ 0 };
+}
+
+static vec3 corner(const fm_box *box, unsigned i)
+{
+    return (vec3){ i & 1 ? box->high[0] : box->low[0], i & 2 ? box->high[1] : box->low[1],
+                   i & 4 ? box->high[2] : box->low[2] };
+}
+
+static vec3 centre(const fm_box *box)
+{
+    return plus_scaled((vec3){ 0 },
+                       (vec3){ box->low[0] + box->high[0], box->low[1] + box->high[1],
+                               box->low[2] + box->high[2] },
+                       0.5);
+}
+
+/* `up` may be zero or along the view: then the axis farthest from the view takes its place. */
+static void frame_along(view *v, vec3 back, vec3 up)
+{
+    const double nearly_parallel = 1e-6;
+    v->back = normalized(back);
+    vec3 right = cross(normalized(up), v->back);
+    if (dot(right, right) < nearly_parallel * nearly_parallel) {
+        const bool is_upright = fabs(v->back.y) > 0.9;
+        right = cross(is_upright ? (vec3){ 0, 0, -1 } : (vec3){ 0, 1, 0 }, v->back);
+    }
+    v->right = normalized(right);
+    v->up = cross(v->back, v->right);
+}
+
+/* Backs off until every corner is inside the pyramid of view. */
+static void fit_eye(view *v, const lens *l, const fm_box *box)
+{
+    const vec3 middle = centre(box);
+    double distance = 0.0;
+    for (unsigned i = 0; i < 8; i++) {
+        const vec3 c = minus(corner(box, i), middle);
+        const double aside =
+            fmax(fabs(dot(c, v->right)) * l->scale_x, fabs(dot(c, v->up)) * l->scale_y);
+        distance = fmax(distance, aside + dot(c, v->back));
+    }
+    v->eye = plus_scaled(middle, v->back, distance);
+}
+
+static void view_set(view *v, lens *l, const fm_settings *s, const fm_box *box)
+{
+    const bool is_fitted = memcmp(s->eye, s->target, sizeof s->eye) == 0;
+    const vec3 three_quarter = { 0.6, 0.45, 1.0 };
+    const double degree = 3.14159265358979323846 / 180.0;
+    l->scale_y = 1.0 / tan(0.5 * s->fov_deg * degree);
+    l->scale_x = l->scale_y * s->height_px / s->width_px;
+    v->eye = vec3_of(s->eye);
+    frame_along(v, is_fitted ? three_quarter : minus(v->eye, vec3_of(s->target)), vec3_of(s->up));
+    if (!is_fitted)
+        return;
+    fit_eye(v, l, box);
+    l->scale_x *= s->zoom;
+    l->scale_y *= s->zoom;
+}
+
+static fm_status planes_set(lens *l, const view *v, const fm_settings *s, const fm_box *box,
+                            fm_error *err)
+{
+    double least = INFINITY, greatest = -INFINITY;
+    for (unsigned i = 0; i < 8; i++) {
+        const double depth = dot(minus(v->eye, corner(box, i)), v->back);
+        least = fmin(least, depth);
+        greatest = fmax(greatest, depth);
+    }
+    if (!(greatest > 0.0))
+        return fm_fail(err, FM_INVALID, "eye, target: the mesh lies behind the camera");
+    l->near = s->near_plane > 0.0 ? s->near_plane : fmax(0.4 * least, 1e-3 * greatest);
+    l->far = s->far_plane > 0.0 ? s->far_plane : 1.7 * greatest;
+    if (!(l->near < l->far))
+        return fm_fail(err, FM_INVALID, "near_plane %g is not nearer than far_plane %g", l->near,
+                       l->far);
+    return FM_OK;
+}
+
+/* Row r of clip_from_world: along * scale applied to the position relative to the eye, + constant.
+ */
+static void set_row(double m[16], int r, vec3 along, double scale, vec3 eye, double constant)
+{
+    m[r] = scale * along.x;
+    m[4 + r] = scale * along.y;
+    m[8 + r] = scale * along.z;
+    m[12 + r] = constant - scale * dot(along, eye);
+}
+
+fm_status camera_matrix(double clip_from_world[16], const fm_settings *settings, const fm_box *box,
+                        fm_error *err)
+{
+    view v;
+    lens l;
+    view_set(&v, &l, settings, box);
+    const fm_status status = planes_set(&l, &v, settings, box, err);
+    if (status != FM_OK)
+        return status;
+    const double range = l.far / (l.near - l.far);
+    set_row(clip_from_world, 0, v.right, l.scale_x, v.eye, 0.0);
+    set_row(clip_from_world, 1, v.up, -l.scale_y, v.eye, 0.0);
+    set_row(clip_from_world, 2, v.back, range, v.eye, l.near * range);
+    set_row(clip_from_world, 3, v.back, -1.0, v.eye, 0.0);
+    return FM_OK;
+}
