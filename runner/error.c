@@ -41,6 +41,6 @@ fm_status fm_error_prefix(fm_error *err, const char *format, ...)
     va_end(arguments);
     memcpy(below, err->message, sizeof below);
     snprintf(err->message, sizeof err->message, "%s: %.*s", prefix,
-             (int)(sizeof below - sizeof prefix), below);
+             (int)(sizeof below - sizeof prefix - 2), below); /* and ": " */
     return err->status;
 }
