@@ -65,6 +65,47 @@ void text_free(fm_text *text)
     *text = (fm_text){ 0 };
 }
 
+bool text_list_add(fm_text_list *list, const char *text)
+{
+    if (list->count == list->capacity) {
+        const size_t capacity = list->capacity > 0 ? 2 * list->capacity : 8;
+        char **items = realloc(list->items, capacity * sizeof *items);
+        if (items == NULL)
+            return false;
+        list->items = items;
+        list->capacity = capacity;
+    }
+    char *copy = strdup(text);
+    if (copy == NULL)
+        return false;
+    list->items[list->count++] = copy;
+    return true;
+}
+
+bool text_list_has(const fm_text_list *list, const char *text)
+{
+    for (size_t i = 0; i < list->count; i++)
+        if (strcmp(list->items[i], text) == 0)
+            return true;
+    return false;
+}
+
+void text_list_free(fm_text_list *list)
+{
+    for (size_t i = 0; i < list->count; i++)
+        free(list->items[i]);
+    free(list->items);
+    *list = (fm_text_list){ 0 };
+}
+
+bool text_path_beside(char *path, size_t room_bytes, const char *file, const char *name)
+{
+    const char *slash = name[0] == '/' ? NULL : strrchr(file, '/');
+    const int folder_length = slash != NULL ? (int)(slash - file) + 1 : 0;
+    const int length = snprintf(path, room_bytes, "%.*s%s", folder_length, file, name);
+    return length >= 0 && (size_t)length < room_bytes;
+}
+
 /* Reads to the end, so that pipes and /proc files, whose size is not known, work too. */
 static fm_status read_stream(fm_text *text, FILE *file, const char *path, size_t limit_bytes,
                              fm_error *err)

@@ -19,11 +19,24 @@ void text_add(fm_text *text, const char *format, ...) __attribute__((format(prin
 void text_add_raw(fm_text *text, const char *bytes, size_t count);
 void text_free(fm_text *text);
 
+/* A growing list of owned copies. Starts as {0}. */
+typedef struct fm_text_list {
+    char **items;
+    size_t count, capacity;
+} fm_text_list;
+
+bool text_list_add(fm_text_list *list, const char *text); /* false: no memory; the list stays */
+bool text_list_has(const fm_text_list *list, const char *text);
+void text_list_free(fm_text_list *list);
+
 /* A whole file, NUL-terminated, at most limit_bytes. The caller frees *bytes. */
 fm_status text_read_file(char **bytes, size_t *count, const char *path, size_t limit_bytes,
                          fm_error *err);
 /* Writes path.partial, flushes it to disk and renames it: never half a file. */
 fm_status text_write_file(const char *path, const char *bytes, size_t count, fm_error *err);
+
+/* `name` as seen from the folder of `file`: absolute names stay. false: longer than the room. */
+bool text_path_beside(char *path, size_t room_bytes, const char *file, const char *name);
 
 /* The name with the least edit distance; NULL if none is within half of word's length. */
 const char *text_nearest(const char *word, const char *const *names, size_t count);
