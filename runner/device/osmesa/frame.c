@@ -1,0 +1,155 @@
+#include <assert.h>
+#include <time.h>
+
+#include "device/osmesa/context.h"
+
+static uint64_t now_ns(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (uint64_t)now.tv_sec * 1000000000u + (uint64_t)now.tv_nsec;
+}
+
+fm_status osmesa_frame_begin(fm_device *device, fm_error *err)
+{
+    osmesa *self = osmesa_current(device);
+    const GLenum code = self->gl.GetError();
+    if (code != GL_NO_ERROR) /* not the frame's: blaming a pass for it would mislead */
+        return fm_fail(err, FM_DEVICE_LOST, "osmesa: before the frame: %s", gl_error_name(code));
+    self->times = (fm_frame_times){ .wall_ns = 0 };
+    self->queries_used = 0;
+    self->frame_start_ns = now_ns();
+    return FM_OK;
+}
+
+static uint64_t read_query(const fm_gl *gl, GLuint query)
+{
+    GLuint64 value = 0;
+    gl->GetQueryObjectui64v(query, GL_QUERY_RESULT, &value); /* waits */
+    return value;
+}
+
+void osmesa_query_collect(osmesa *self, uint32_t slot)
+{
+    if ((self->queries_used >> slot & 1u) != 0)
+        self->times.query[slot] += read_query(&self->gl, self->queries[slot]);
+    self->queries_used &= ~(1u << slot);
+}
+
+fm_status osmesa_frame_end(fm_device *device, fm_frame_times *times, fm_error *err)
+{
+    osmesa *self = osmesa_current(device);
+    self->gl.MemoryBarrier(GL_ALL_BARRIER_BITS);
+    self->gl.Finish();
+    for (uint32_t slot = 0; slot < FM_MAX_QUERIES; slot++)
+        osmesa_query_collect(self, slot);
+    self->times.wall_ns = now_ns() - self->frame_start_ns;
+    *times = self->times;
+    const GLenum code = self->gl.GetError();
+    if (code != GL_NO_ERROR)
+        return fm_fail(err, FM_DEVICE_LOST, "osmesa: in the frame: %s", gl_error_name(code));
+    return FM_OK;
+}
+
+/* llvmpipe works when it is flushed: a plain timestamp lands before work that was issued earlier.
+ * Finishing on both sides pins it down. The value can be read at once, so that a timer may be used
+ * again without a second query object. */
+static void take_timestamp(const fm_gl *gl, GLuint query)
+{
+    gl->Finish();
+    gl->QueryCounter(query, GL_TIMESTAMP);
+    gl->Finish();
+}
+
+void osmesa_timer_begin(fm_device *device, uint32_t timer)
+{
+    osmesa *self = osmesa_current(device);
+    assert(timer < FM_MAX_TIMERS);
+    (void)timer;
+    if (!self->no_timers)
+        take_timestamp(&self->gl, self->timestamps[0]);
+}
+
+void osmesa_timer_end(fm_device *device, uint32_t timer)
+{
+    osmesa *self = osmesa_current(device);
+    assert(timer < FM_MAX_TIMERS);
+    if (self->no_timers)
+        return;
+    take_timestamp(&self->gl, self->timestamps[1]);
+    self->times.timer_ns[timer] +=
+        read_query(&self->gl, self->timestamps[1]) - read_query(&self->gl, self->timestamps[0]);
+}
+
+void osmesa_fill(fm_device *device, fm_buffer *buffer, uint32_t word)
+{
+    const fm_gl *gl = &osmesa_current(device)->gl;
+    gl->MemoryBarrier(GL_ALL_BARRIER_BITS);
+    gl->ClearNamedBufferData(buffer->name, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &word);
+}
+
+void osmesa_update(fm_device *device, fm_buffer *buffer, uint64_t offset_bytes, const void *bytes,
+                   uint32_t count)
+{
+    const fm_gl *gl = &osmesa_current(device)->gl;
+    assert(offset_bytes <= buffer->bytes && count <= buffer->bytes - offset_bytes);
+    gl->MemoryBarrier(GL_ALL_BARRIER_BITS);
+    gl->NamedBufferSubData(buffer->name, (GLintptr)offset_bytes, (GLsizeiptr)count, bytes);
+}
+
+static void bind_one(const fm_gl *gl, const fm_bind *bind)
+{
+    switch (bind->kind) {
+    case FM_BINDING_UNIFORM:
+        gl->BindBufferBase(GL_UNIFORM_BUFFER, bind->binding, bind->buffer->name);
+        return;
+    case FM_BINDING_STORAGE:
+        gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, bind->binding, bind->buffer->name);
+        return;
+    case FM_BINDING_ADDRESS: /* for barriers only, and everything waits for everything here */
+        return;
+    case FM_BINDING_SAMPLED:
+        gl->BindTextureUnit(bind->binding, bind->image->name);
+        return;
+    case FM_BINDING_STORAGE_IMAGE:
+        gl->BindImageTexture(bind->binding, bind->image->name, 0, bind->image->layers > 1, 0,
+                             GL_READ_WRITE, osmesa_format_of(bind->image->format)->internal);
+        return;
+    }
+}
+
+void osmesa_bind(const fm_gl *gl, const fm_bind *binds, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++)
+        bind_one(gl, &binds[i]);
+}
+
+static fm_status check_groups(const fm_device *device, const uint32_t groups[3], fm_error *err)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        if (groups[axis] > device->caps.max_groups[axis])
+            return fm_fail(err, FM_UNSUPPORTED, "dispatch: %u groups, this device's most are %u",
+                           groups[axis], device->caps.max_groups[axis]);
+    }
+    return FM_OK;
+}
+
+fm_status osmesa_dispatch(fm_device *device, const fm_dispatch *dispatch, fm_error *err)
+{
+    const fm_gl *gl = &osmesa_current(device)->gl;
+    if (dispatch->indirect == NULL) {
+        const fm_status status = check_groups(device, dispatch->groups, err);
+        if (status != FM_OK)
+            return status;
+    }
+    gl->MemoryBarrier(GL_ALL_BARRIER_BITS);
+    gl->UseProgram(dispatch->pipeline->program);
+    osmesa_bind(gl, dispatch->binds, dispatch->bind_count);
+    if (dispatch->indirect != NULL) {
+        gl->BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, dispatch->indirect->name);
+        gl->DispatchComputeIndirect(0);
+    } else {
+        gl->DispatchCompute(dispatch->groups[0], dispatch->groups[1], dispatch->groups[2]);
+    }
+    return FM_OK;
+}
