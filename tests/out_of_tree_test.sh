@@ -8,7 +8,7 @@ source_folder=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)/out_of_tree
 temporary=$(mktemp -d)
 trap 'rm -rf "$temporary"' EXIT
 # The installed program must find its own files, not those of this tree.
-unset FRAGMARK_PLUGIN_PATH FRAGMARK_SOURCE_DIR
+unset FRAGMARK_PLUGIN_PATH FRAGMARK_SCENE_PATH FRAGMARK_SOURCE_DIR
 
 prefix=$temporary/prefix
 "$cmake" --install "$build" --prefix "$prefix" >/dev/null
