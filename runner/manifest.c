@@ -1,0 +1,198 @@
+#include "manifest.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "machine.h"
+
+#ifndef FM_GIT_COMMIT
+#define FM_GIT_COMMIT "unknown"
+#endif
+
+static const char *const family_name[] = {
+    [FM_FAMILY_CONTROL] = "control",
+    [FM_FAMILY_Z_BUFFER] = "z-buffer",
+    [FM_FAMILY_PEELING] = "peeling",
+    [FM_FAMILY_K_BUFFER] = "k-buffer",
+    [FM_FAMILY_K_PLUS_BUFFER] = "k-plus-buffer",
+    [FM_FAMILY_A_BUFFER] = "a-buffer",
+    [FM_FAMILY_LINKED_LIST] = "linked-list",
+    [FM_FAMILY_RASTERISER] = "rasteriser",
+};
+_Static_assert(sizeof family_name / sizeof family_name[0] == FM_FAMILY_COUNT, "one name each");
+
+static const char *const marker_name[] = {
+    [FM_MARKER_CIRCLE] = "circle", [FM_MARKER_SQUARE] = "square", [FM_MARKER_DIAMOND] = "diamond",
+    [FM_MARKER_PLUS] = "plus",     [FM_MARKER_CROSS] = "cross",
+};
+_Static_assert(sizeof marker_name / sizeof marker_name[0] == FM_MARKER_COUNT, "one name each");
+
+/* In the order of FM_TRAIT_*'s bits. */
+static const char *const trait_name[] = {
+    "exact",           "bounded",    "sorted_input", "sorts_in_resolve",
+    "loses_depth_one", "loses_ties", "racy",         "approximate",
+    "control",         "floor",      "emits_back",
+};
+_Static_assert((1u << sizeof trait_name / sizeof trait_name[0]) == FM_TRAITS_ALL + 1u,
+               "one name a trait");
+
+static json_t *machine_json(const fm_results *results)
+{
+    fm_machine machine;
+    json_t *mesa = NULL;
+    machine_describe(&machine);
+    for (size_t i = 0; i < results->plan->count && mesa == NULL; i++) {
+        const char *driver = strstr(results->cases[i].device_driver, "Mesa ");
+        if (driver != NULL)
+            mesa = json_stringn(driver + 5, strcspn(driver + 5, " ;)"));
+    }
+    return json_pack("{s:s, s:i, s:I, s:s, s:s, s:s, s:s, s:o?}", "cpu", machine.cpu, "cores",
+                     (int)machine.cores, "memory_bytes", (json_int_t)machine.memory_bytes, "os",
+                     machine.os, "kernel", machine.kernel, "compiler", machine.compiler, "governor",
+                     machine.governor, "mesa", mesa);
+}
+
+static bool device_is_listed(const json_t *devices, const char *selector)
+{
+    size_t index;
+    const json_t *device;
+    json_array_foreach(devices, index,
+                       device) if (strcmp(json_string_value(json_object_get(device, "selector")),
+                                          selector) == 0) return true;
+    return false;
+}
+
+static json_t *devices_json(const fm_results *results)
+{
+    json_t *devices = json_array();
+    for (size_t i = 0; i < results->plan->count; i++) {
+        const fm_case_result *result = &results->cases[i];
+        const char *selector = results->plan->cases[i].device;
+        if (result->device_name[0] == '\0' || device_is_listed(devices, selector))
+            continue;
+        json_array_append_new(devices, json_pack("{s:s, s:s, s:s, s:s, s:b, s:b}", "selector",
+                                                 selector, "name", result->device_name, "driver",
+                                                 result->device_driver, "api", result->device_api,
+                                                 "is_software", (int)result->is_software,
+                                                 "has_gpu_clock", (int)result->has_gpu_clock));
+    }
+    return devices;
+}
+
+static json_t *method_json(const fm_method_desc *method)
+{
+    json_t *traits = json_array();
+    for (unsigned bit = 0; bit < sizeof trait_name / sizeof trait_name[0]; bit++)
+        if ((method->traits & 1u << bit) != 0)
+            json_array_append_new(traits, json_string(trait_name[bit]));
+    return json_pack("{s:s, s:s?, s:s?, s:s, s:s, s:b, s:o}", "title",
+                     method->title != NULL ? method->title : method->id, "citation",
+                     method->citation, "version", method->version, "family",
+                     family_name[method->family], "marker", marker_name[method->marker], "dashed",
+                     (int)method->dashed, "traits", traits);
+}
+
+static json_t *methods_json(const fm_results *results)
+{
+    json_t *methods = json_object();
+    for (size_t i = 0; i < results->plan->count; i++) {
+        const char *id = results->plan->cases[i].method;
+        const fm_plugin_entry *entry = plugin_list_find(results->plugins, id);
+        if (entry != NULL && entry->plugin != NULL && json_object_get(methods, id) == NULL)
+            json_object_set_new(methods, id, method_json(entry->plugin->method));
+    }
+    return methods;
+}
+
+static json_t *scene_json(const fm_case *of)
+{
+    char hash[17], value[FM_PATH_MAX_BYTES];
+    json_t *settings = json_object();
+    settings_scene_hash(hash, &of->settings);
+    for (size_t i = 0; i < fm_key_count; i++) {
+        const fm_key *key = &fm_keys[i];
+        if (key->scope != FM_SCOPE_SCENE || !key_is_read(key, of->settings.generator))
+            continue;
+        settings_text(value, &of->settings, key);
+        json_object_set_new(settings, key->name, json_string(value));
+    }
+    return json_pack("{s:s, s:s, s:o}", "name", of->scene, "hash", hash, "settings", settings);
+}
+
+/* By hash: each distinct scene once. */
+static json_t *scenes_json(const fm_results *results)
+{
+    json_t *scenes = json_array(), *seen = json_object();
+    for (size_t i = 0; i < results->plan->count; i++) {
+        json_t *scene = scene_json(&results->plan->cases[i]);
+        const char *hash = json_string_value(json_object_get(scene, "hash"));
+        if (hash != NULL && json_object_get(seen, hash) == NULL) {
+            json_object_set_new(seen, hash, json_true());
+            json_array_append(scenes, scene);
+        }
+        json_decref(scene);
+    }
+    json_decref(seen);
+    return scenes;
+}
+
+static json_t *modelled_json(const fm_results *results)
+{
+    json_t *modelled = json_object();
+    for (size_t i = 0; i < results->plan->count; i++)
+        if (results->cases[i].modelled != NULL)
+            json_object_set(modelled, results->plan->cases[i].id, results->cases[i].modelled);
+    return modelled;
+}
+
+static json_t *figures_json(const char *const *figures)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; figures != NULL && figures[i] != NULL; i++)
+        json_array_append_new(list, json_string(figures[i]));
+    return list;
+}
+
+static json_t *manifest_json(const fm_manifest_desc *desc)
+{
+    const fm_results *results = desc->results;
+    const fm_plan *plan = results->plan;
+    char ended[32] = "";
+    struct tm utc;
+    const time_t now = time(NULL);
+    gmtime_r(&now, &utc);
+    strftime(ended, sizeof ended, "%Y-%m-%dT%H:%M:%SZ", &utc);
+    return json_pack(
+        "{s:i, s:s, s:s, s:s, s:s?, s:I, s:i, s:i, s:i, s:b, s:b, s:s, s:s?, s:o, s:o, s:o, s:o, "
+        "s:o, s:o}",
+        "schema", 1, "fragmark", FM_VERSION, "git_commit", FM_GIT_COMMIT, "run_id", results->run_id,
+        "command", desc->run->command, "seed", (json_int_t)plan->seed, "launches",
+        (int)plan->launches, "frames", (int)plan->frames, "warmup", (int)plan->warmup, "validation",
+        (int)desc->run->validation, "no_timers", (int)desc->run->no_timers, "started",
+        desc->started, "ended", desc->is_ended ? ended : NULL, "figures",
+        figures_json(desc->run->figures), "machine", machine_json(results), "devices",
+        devices_json(results), "methods", methods_json(results), "scenes", scenes_json(results),
+        "modelled", modelled_json(results));
+}
+
+fm_status manifest_write(const fm_manifest_desc *desc, fm_error *err)
+{
+    char path[FM_PATH_MAX_BYTES];
+    char *text = NULL;
+    fm_status status = FM_OK;
+    json_t *manifest = manifest_json(desc);
+    const int length = snprintf(path, sizeof path, "%s/manifest.json", desc->run->directory);
+    if (manifest != NULL)
+        text = json_dumps(manifest, JSON_INDENT(2));
+    if (length < 0 || (size_t)length >= sizeof path)
+        status = fm_fail(err, FM_INVALID, "%.64s...: the path is too long", desc->run->directory);
+    else if (text == NULL)
+        status = fm_fail(err, FM_NO_MEMORY, "%s: cannot be put together", path);
+    else
+        status = text_write_file(path, text, strlen(text), err);
+    free(text);
+    json_decref(manifest);
+    return status;
+}

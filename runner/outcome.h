@@ -1,0 +1,26 @@
+/* What became of a case: one word a case in summary.csv. */
+#ifndef FM_OUTCOME_H
+#define FM_OUTCOME_H
+
+#include <stdbool.h>
+
+/* In rising order of harm: a case has the worst status of its launches. */
+typedef enum fm_case_status {
+    FM_CASE_OK,
+    FM_CASE_NOT_SUPPORTED, /* a result: this device, or the method, cannot do it */
+    FM_CASE_WRONG_IMAGE,   /* a method declared exact was not */
+    FM_CASE_PLUGIN_ERROR,  /* the plugin or a shader of it was refused */
+    FM_CASE_DEVICE_LOST,
+    FM_CASE_OUT_OF_MEMORY,
+    FM_CASE_TIMEOUT,
+    FM_CASE_CRASH,
+    FM_CASE_STATUS_COUNT
+} fm_case_status;
+
+const char *case_status_name(fm_case_status status);
+/* false: no such word, or NULL. */
+bool case_status_parse(fm_case_status *status, const char *name);
+/* Launched again in the next round? Only what measured something is. */
+bool case_status_continues(fm_case_status status);
+
+#endif

@@ -1,0 +1,84 @@
+#include "progress.h"
+
+#include <math.h>
+#include <string.h>
+#include <time.h>
+
+#include "stats.h"
+
+static const double PLAIN_INTERVAL_S = 10.0;
+
+static double now_seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
+}
+
+void duration_text(char text[32], double seconds)
+{
+    const long all = lround(fmin(fmax(seconds, 0.0), 3.6e8));
+    if (all >= 3600)
+        snprintf(text, 32, "%ld h %02ld min", all / 3600, all / 60 % 60);
+    else if (all >= 60)
+        snprintf(text, 32, "%ld min %02ld s", all / 60, all % 60);
+    else
+        snprintf(text, 32, "%ld s", all);
+}
+
+static double seconds_left(const fm_progress *progress)
+{
+    double recent[FM_PROGRESS_RECENT];
+    const uint32_t count =
+        progress->finished < FM_PROGRESS_RECENT ? progress->finished : FM_PROGRESS_RECENT;
+    memcpy(recent, progress->recent_s, sizeof recent);
+    return stats_median(recent, count) * (progress->total - progress->done);
+}
+
+static void write_state(fm_progress *progress, double now)
+{
+    char elapsed[32], left[32] = "";
+    duration_text(elapsed, now - progress->started_s);
+    if (progress->finished > 0)
+        duration_text(left, seconds_left(progress));
+    if (progress->is_terminal)
+        fputs("\r\033[K", progress->out);
+    fprintf(progress->out, "%u/%u  %s%s%s%s  %s", progress->done, progress->total, elapsed,
+            left[0] != '\0' ? ", about " : "", left, left[0] != '\0' ? " left" : "",
+            progress->current);
+    if (!progress->is_terminal)
+        fputc('\n', progress->out);
+    fflush(progress->out);
+    progress->written_s = now;
+}
+
+void progress_tick(fm_progress *progress)
+{
+    const double now = now_seconds();
+    if (progress->out != NULL &&
+        (progress->is_terminal || now - progress->written_s >= PLAIN_INTERVAL_S))
+        write_state(progress, now);
+}
+
+void progress_begin(fm_progress *progress, const char *current)
+{
+    snprintf(progress->current, sizeof progress->current, "%s", current);
+    if (progress->started_s <= 0.0)
+        progress->started_s = now_seconds();
+    progress_tick(progress);
+}
+
+void progress_end(fm_progress *progress, double seconds)
+{
+    progress->recent_s[progress->finished++ % FM_PROGRESS_RECENT] = seconds;
+    progress->done++;
+    if (progress->done == progress->total)
+        progress->written_s = 0.0; /* the last one is always told */
+    progress_tick(progress);
+}
+
+void progress_close(fm_progress *progress)
+{
+    if (progress->out != NULL && progress->is_terminal && progress->started_s > 0.0)
+        fputc('\n', progress->out);
+}

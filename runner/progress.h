@@ -1,0 +1,32 @@
+/* How far a run is and how long it may still take, for a human. */
+#ifndef FM_PROGRESS_H
+#define FM_PROGRESS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+
+enum { FM_PROGRESS_RECENT = 101 }; /* launches whose median foretells the rest */
+
+/* Starts as {0} with out, is_terminal and total set. */
+typedef struct fm_progress {
+    FILE *out;        /* NULL: silent */
+    bool is_terminal; /* one line, written over; else a line from time to time */
+    uint32_t total, done;
+    char current[160]; /* what runs now */
+    double started_s, written_s;
+    double recent_s[FM_PROGRESS_RECENT];
+    uint32_t finished; /* here, not in an earlier process */
+} fm_progress;
+
+void progress_begin(fm_progress *progress, const char *current);
+void progress_tick(fm_progress *progress);
+/* One more launch is done, after so many seconds. */
+void progress_end(fm_progress *progress, double seconds);
+/* Ends the line on a terminal. */
+void progress_close(fm_progress *progress);
+
+/* "1 h 02 min", "3 min 05 s", "7 s". */
+void duration_text(char text[32], double seconds);
+
+#endif

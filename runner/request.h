@@ -1,0 +1,34 @@
+/* What a worker is asked (worker.h), as a file; and which truth each case is compared with. */
+#ifndef FM_REQUEST_H
+#define FM_REQUEST_H
+
+#include "plan.h"
+
+typedef struct fm_request {
+    const fm_case *of;                   /* truth jobs: one of the cases that it is for */
+    const char *plugin, *floor, *common; /* paths */
+    const char *truth;                   /* path of the truth file */
+    const char *image;                   /* path; "": none */
+    bool is_truth_job, check, validation, no_timers;
+    uint64_t seed;
+    uint32_t launch;
+} fm_request;
+
+fm_status request_write(const char *path, const fm_request *request, fm_error *err);
+
+/* One truth: a scene as a device's rasteriser sees it. raster and compute feeds share it. */
+typedef struct fm_truth_job {
+    char name[200]; /* of its files: SCENEHASH-DEVICE[-FEED] */
+    size_t of;      /* the first case that needs it */
+} fm_truth_job;
+
+typedef struct fm_truth_jobs {
+    fm_truth_job *jobs;
+    size_t count;
+    size_t *of_case; /* [plan->count]: which job */
+} fm_truth_jobs;
+
+fm_status truth_jobs_create(fm_truth_jobs *jobs, const fm_plan *plan, fm_error *err);
+void truth_jobs_free(fm_truth_jobs *jobs);
+
+#endif

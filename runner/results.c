@@ -1,0 +1,352 @@
+#include "results.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static const char *const sample_name[] = {
+    [FM_SAMPLE_FRAME_MS] = "frame_ms",         [FM_SAMPLE_FRAME_WALL_MS] = "frame_wall_ms",
+    [FM_SAMPLE_CLEAR_MS] = "clear_ms",         [FM_SAMPLE_COUNT_MS] = "count_ms",
+    [FM_SAMPLE_REFERENCE_MS] = "reference_ms", [FM_SAMPLE_STORE_MS] = "store_ms",
+    [FM_SAMPLE_RESOLVE_MS] = "resolve_ms",     [FM_SAMPLE_FLOOR_STORE_MS] = "floor_store_ms",
+    [FM_SAMPLE_CANARY_NS] = "canary_ns",
+};
+_Static_assert(sizeof sample_name / sizeof sample_name[0] == FM_SAMPLE_METRIC_COUNT, "one each");
+
+static const char SAMPLES_HEADER[] = "schema,run_id,case_id,launch,frame,metric,value,unit\n";
+
+void csv_add(fm_text *text, const char *field)
+{
+    if (field[strcspn(field, "\",\r\n")] == '\0') {
+        text_add_raw(text, field, strlen(field));
+        return;
+    }
+    text_add_raw(text, "\"", 1);
+    for (; *field != '\0'; field++) {
+        if (*field == '"')
+            text_add_raw(text, "\"", 1);
+        text_add_raw(text, field, 1);
+    }
+    text_add_raw(text, "\"", 1);
+}
+
+void csv_add_real(fm_text *text, double value)
+{
+    if (isinf(value))
+        text_add(text, value > 0 ? "inf" : "-inf");
+    else if (!isnan(value))
+        text_add(text, "%.9g", value);
+}
+
+static fm_status append(const fm_results *results, const fm_text *text, fm_error *err)
+{
+    if (text->failed)
+        return fm_fail(err, FM_NO_MEMORY, "%s: no memory for its rows", results->samples_path);
+    for (size_t done = 0; done < text->length;) {
+        const ssize_t count = write(results->samples_fd, text->bytes + done, text->length - done);
+        if (count < 0 && errno != EINTR)
+            return fm_fail(err, FM_IO, "%s: %s", results->samples_path, strerror(errno));
+        done += count > 0 ? (size_t)count : 0;
+    }
+    return FM_OK;
+}
+
+static fm_status path_in(char path[FM_PATH_MAX_BYTES], const char *directory, const char *name,
+                         fm_error *err)
+{
+    const int length = snprintf(path, FM_PATH_MAX_BYTES, "%s/%s", directory, name);
+    if (length < 0 || length >= FM_PATH_MAX_BYTES)
+        return fm_fail(err, FM_INVALID, "%.64s...: the path is too long", directory);
+    return FM_OK;
+}
+
+static void mark_skipped(fm_case_result *result, const fm_case *skipped)
+{
+    static const char refused[] = "plugin_error: ";
+    const size_t length = sizeof refused - 1;
+    const bool is_refused = strncmp(skipped->skip, refused, length) == 0;
+    result->status = is_refused ? FM_CASE_PLUGIN_ERROR : FM_CASE_NOT_SUPPORTED;
+    snprintf(result->message, sizeof result->message, "%s",
+             skipped->skip + (is_refused ? length : 0));
+}
+
+static fm_status create_cases(fm_results *results, fm_error *err)
+{
+    const fm_plan *plan = results->plan;
+    results->cases = calloc(plan->count > 0 ? plan->count : 1, sizeof *results->cases);
+    if (results->cases == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "no memory for %zu cases", plan->count);
+    for (size_t i = 0; i < plan->count; i++) {
+        results->cases[i].launches = calloc(plan->launches, sizeof(fm_launch_state));
+        if (results->cases[i].launches == NULL)
+            return fm_fail(err, FM_NO_MEMORY, "no memory for %u launches", plan->launches);
+        if (plan->cases[i].skip[0] != '\0')
+            mark_skipped(&results->cases[i], &plan->cases[i]);
+    }
+    return FM_OK;
+}
+
+static fm_status begin_samples(fm_results *results, fm_error *err)
+{
+    fm_text header = { 0 };
+    results->samples_fd =
+        open(results->samples_path, O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666);
+    if (results->samples_fd < 0)
+        return fm_fail(err, FM_IO, "%s: %s", results->samples_path, strerror(errno));
+    text_add(&header, "%s", SAMPLES_HEADER);
+    const fm_status status = append(results, &header, err);
+    text_free(&header);
+    return status;
+}
+
+fm_status results_create(fm_results **results, const fm_plan *plan, const fm_plugin_list *plugins,
+                         const char *directory, const char *run_id, fm_error *err)
+{
+    fm_status status;
+    fm_results *created = calloc(1, sizeof *created);
+    *results = NULL;
+    if (created == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "no memory for results");
+    created->plan = plan;
+    created->plugins = plugins;
+    created->samples_fd = -1;
+    snprintf(created->run_id, sizeof created->run_id, "%s", run_id);
+    status = path_in(created->summary_path, directory, "summary.csv", err);
+    if (status == FM_OK)
+        status = path_in(created->samples_path, directory, "samples.csv", err);
+    if (status == FM_OK)
+        status = create_cases(created, err);
+    if (status == FM_OK)
+        status = begin_samples(created, err);
+    if (status == FM_OK)
+        *results = created;
+    else
+        results_destroy(created);
+    return status;
+}
+
+void results_destroy(fm_results *results)
+{
+    if (results == NULL)
+        return;
+    for (size_t i = 0; results->cases != NULL && i < results->plan->count; i++) {
+        fm_case_result *result = &results->cases[i];
+        json_decref(result->metrics);
+        json_decref(result->modelled);
+        free(result->launches);
+        free(result->samples);
+        free(result->row);
+    }
+    free(results->cases);
+    if (results->samples_fd >= 0)
+        close(results->samples_fd);
+    free(results);
+}
+
+static const char *text_of(const json_t *object, const char *key)
+{
+    const char *text = json_string_value(json_object_get(object, key));
+    return text != NULL ? text : "";
+}
+
+static void add_sample_row(fm_text *rows, const fm_results *results, const char *case_id,
+                           uint32_t launch, const json_t *sample)
+{
+    text_add(rows, "1,%s,%s,%u,%lld,", results->run_id, case_id, launch,
+             (long long)json_integer_value(json_object_get(sample, "frame")));
+    csv_add(rows, text_of(sample, "metric"));
+    text_add(rows, ",");
+    csv_add_real(rows, json_number_value(json_object_get(sample, "value")));
+    text_add(rows, ",");
+    csv_add(rows, text_of(sample, "unit"));
+    text_add(rows, "\n");
+}
+
+/* Metrics of the case that summary.csv has no column for: rows without launch and frame. */
+static void add_metric_rows(fm_text *rows, const fm_results *results, const char *case_id,
+                            json_t *metrics)
+{
+    const char *name;
+    json_t *value;
+    json_object_foreach(metrics, name, value)
+    {
+        if (summary_has_column(name) || !(json_is_number(value) || json_is_string(value)))
+            continue;
+        text_add(rows, "1,%s,%s,,,", results->run_id, case_id);
+        csv_add(rows, name);
+        text_add(rows, ",");
+        if (json_is_integer(value))
+            text_add(rows, "%lld", (long long)json_integer_value(value));
+        else if (json_is_real(value))
+            csv_add_real(rows, json_real_value(value));
+        else
+            csv_add(rows, json_string_value(value));
+        text_add(rows, ",%s\n", strstr(name, "bytes") != NULL ? "B" : "");
+    }
+}
+
+static fm_status keep_sample(fm_case_result *result, uint32_t launch, const json_t *sample,
+                             fm_error *err)
+{
+    const char *name = text_of(sample, "metric");
+    int metric = 0;
+    while (metric < FM_SAMPLE_METRIC_COUNT && strcmp(name, sample_name[metric]) != 0)
+        metric++;
+    if (metric == FM_SAMPLE_METRIC_COUNT)
+        return FM_OK;
+    if (result->sample_count == result->sample_room) {
+        const size_t room = result->sample_room > 0 ? 2 * result->sample_room : 64;
+        fm_sample *grown = reallocarray(result->samples, room, sizeof *grown);
+        if (grown == NULL)
+            return fm_fail(err, FM_NO_MEMORY, "no memory for %zu samples", room);
+        result->samples = grown;
+        result->sample_room = room;
+    }
+    result->samples[result->sample_count++] = (fm_sample){
+        .value = json_number_value(json_object_get(sample, "value")),
+        .launch = launch,
+        .frame = (uint32_t)json_integer_value(json_object_get(sample, "frame")),
+        .metric = (fm_sample_metric)metric,
+    };
+    return FM_OK;
+}
+
+static void keep_device(fm_case_result *kept, const json_t *result)
+{
+    const json_t *software = json_object_get(result, "is_software");
+    if (text_of(result, "device_name")[0] == '\0')
+        return;
+    snprintf(kept->device_name, sizeof kept->device_name, "%s", text_of(result, "device_name"));
+    snprintf(kept->device_driver, sizeof kept->device_driver, "%s",
+             text_of(result, "device_driver"));
+    snprintf(kept->device_api, sizeof kept->device_api, "%s", text_of(result, "device_api"));
+    kept->has_gpu_clock = json_is_true(json_object_get(result, "has_gpu_clock"));
+    kept->is_software = software != NULL ? json_is_true(software) : !kept->has_gpu_clock;
+}
+
+static void worsen(fm_case_result *kept, uint32_t launch, fm_case_status status,
+                   const char *message)
+{
+    if (status < kept->status || (status == kept->status && kept->message[0] != '\0'))
+        return;
+    kept->status = status;
+    if (launch == 0 || message[0] == '\0')
+        snprintf(kept->message, sizeof kept->message, "%s", message);
+    else
+        snprintf(kept->message, sizeof kept->message, "launch %u: %s", launch, message);
+}
+
+/* Depths that tie are composited in either order: another image, and yet exact. */
+static bool depths_may_tie(const fm_settings *settings)
+{
+    return settings->generator == FM_GENERATOR_MESH || settings->depths == FM_DEPTHS_COPLANAR ||
+           settings->depths == FM_DEPTHS_SLOPED;
+}
+
+/* Only launch 0 is checked against truth; an exact method's later images must equal that one. */
+static void compare_image(fm_results *results, size_t case_index, uint32_t launch)
+{
+    const fm_case *measured = &results->plan->cases[case_index];
+    fm_case_result *kept = &results->cases[case_index];
+    const fm_plugin_entry *entry = plugin_list_find(results->plugins, measured->method);
+    const char *checked = kept->launches[0].image_hash;
+    if (launch == 0 || checked[0] == '\0' || kept->launches[launch].image_hash[0] == '\0' ||
+        entry == NULL || entry->plugin == NULL || depths_may_tie(&measured->settings))
+        return;
+    const uint32_t traits = entry->plugin->method->traits;
+    if ((traits & FM_TRAIT_EXACT) == 0 || (traits & FM_TRAIT_RACY) != 0)
+        return;
+    if (strcmp(checked, kept->launches[launch].image_hash) != 0)
+        worsen(kept, launch, FM_CASE_WRONG_IMAGE, "drew another image than the checked launch 0");
+}
+
+static fm_status keep(fm_results *results, size_t case_index, uint32_t launch, const json_t *result,
+                      fm_error *err)
+{
+    fm_case_result *kept = &results->cases[case_index];
+    fm_case_status status = FM_CASE_CRASH;
+    size_t index;
+    const json_t *sample;
+    case_status_parse(&status, text_of(result, "status"));
+    worsen(kept, launch, status, text_of(result, "message"));
+    keep_device(kept, result);
+    kept->launches[launch].is_done = true;
+    kept->done++;
+    snprintf(kept->launches[launch].image_hash, sizeof kept->launches[launch].image_hash, "%s",
+             text_of(result, "image_hash"));
+    compare_image(results, case_index, launch);
+    if (launch == 0) {
+        kept->metrics = json_incref(json_object_get(result, "metrics"));
+        kept->modelled = json_incref(json_object_get(result, "modelled"));
+    }
+    /* Times of a launch that went wrong stand for nothing. */
+    if (!case_status_continues(status))
+        return FM_OK;
+    json_array_foreach(json_object_get(result, "samples"), index, sample)
+    {
+        const fm_status kept_status = keep_sample(kept, launch, sample, err);
+        if (kept_status != FM_OK)
+            return kept_status;
+    }
+    return FM_OK;
+}
+
+fm_status results_add(fm_results *results, size_t case_index, uint32_t launch, const json_t *result,
+                      fm_error *err)
+{
+    const char *case_id = results->plan->cases[case_index].id;
+    fm_case_result *kept = &results->cases[case_index];
+    fm_text rows = { 0 };
+    size_t index;
+    const json_t *sample;
+    fm_status status = keep(results, case_index, launch, result, err);
+    if (status != FM_OK)
+        return status;
+    free(kept->row);
+    kept->row = NULL;
+    json_array_foreach(json_object_get(result, "samples"), index, sample)
+        add_sample_row(&rows, results, case_id, launch, sample);
+    if (launch == 0)
+        add_metric_rows(&rows, results, case_id, kept->metrics);
+    status = append(results, &rows, err);
+    text_free(&rows);
+    return status;
+}
+
+bool results_is_finished(const fm_results *results, size_t case_index)
+{
+    const fm_case_result *kept = &results->cases[case_index];
+    return kept->done == results->plan->launches || !case_status_continues(kept->status);
+}
+
+fm_status results_write_summary(fm_results *results, bool again, fm_error *err)
+{
+    fm_text all = { 0 };
+    fm_status status = FM_OK;
+    summary_header(&all);
+    for (size_t i = 0; i < results->plan->count && status == FM_OK; i++) {
+        fm_case_result *kept = &results->cases[i];
+        if (kept->done == 0 && results->plan->cases[i].skip[0] == '\0')
+            continue;
+        if (again || kept->row == NULL) {
+            fm_text row = { 0 };
+            summary_row(&row, results, i);
+            if (row.failed)
+                status = fm_fail(err, FM_NO_MEMORY, "no memory for a row of the summary");
+            free(kept->row);
+            kept->row = row.bytes;
+        }
+        if (status == FM_OK)
+            text_add_raw(&all, kept->row, strlen(kept->row));
+    }
+    if (status == FM_OK && all.failed)
+        status = fm_fail(err, FM_NO_MEMORY, "no memory for the summary");
+    if (status == FM_OK)
+        status = text_write_file(results->summary_path, all.bytes, all.length, err);
+    text_free(&all);
+    return status;
+}
