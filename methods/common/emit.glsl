@@ -1,0 +1,62 @@
+// fm_emit of a pass that emits. The timed build composites front to back (colours are premultiplied):
+//   C = C + c (1 - A),  A = A + a (1 - A).
+// The checked build writes the fragments of the pixels of one band down instead.
+#ifdef FM_CAPTURE
+
+void fm_emit(uvec2 pixel, int rank, float depth, uint colour)
+{
+    uint local = fm_pixel_index(pixel) - fm_band_first;
+    if (local >= fm_band_pixels)
+        return;
+    uint slot = rank >= 0 ? uint(rank) : uint(FM_CAPTURE_SLOTS + rank);
+    if (rank >= 0)
+        fm_capture_counts[local].x = max(fm_capture_counts[local].x, uint(rank + 1));
+    else
+        fm_capture_counts[local].y = max(fm_capture_counts[local].y, uint(-rank));
+    if (slot < uint(FM_CAPTURE_SLOTS))
+        fm_capture[local * uint(FM_CAPTURE_SLOTS) + slot] = uvec2(floatBitsToUint(depth), colour);
+}
+void fm_emit_begin(uvec2 pixel)
+{
+}
+void fm_emit_end(uvec2 pixel)
+{
+}
+
+#else
+
+vec4 fm_front;
+#ifdef FM_EMITS_BACK
+vec4 fm_back;
+#endif
+
+void fm_emit(uvec2 pixel, int rank, float depth, uint colour)
+{
+    vec4 c = unpackUnorm4x8(colour);
+#ifdef FM_EMITS_BACK
+    if (rank < 0) { // each one lies before those already there
+        fm_back = c + fm_back * (1.0 - c.a);
+        return;
+    }
+#endif
+    fm_front += c * (1.0 - fm_front.a);
+}
+
+// Compositing outlives a pass: a looped method goes on where the last iteration ended.
+void fm_emit_begin(uvec2 pixel)
+{
+    bool is_first = FM_EMIT_FIRST != 0 && fm_iteration == 0u;
+    fm_front = is_first ? vec4(0.0) : fm_output[fm_pixel_index(pixel)];
+#ifdef FM_EMITS_BACK
+    fm_back = is_first ? vec4(0.0) : fm_output_back[fm_pixel_index(pixel)];
+#endif
+}
+void fm_emit_end(uvec2 pixel)
+{
+    fm_output[fm_pixel_index(pixel)] = fm_front;
+#ifdef FM_EMITS_BACK
+    fm_output_back[fm_pixel_index(pixel)] = fm_back;
+#endif
+}
+
+#endif

@@ -1,0 +1,6 @@
+// One triangle that covers the viewport.
+void main()
+{
+    vec2 corner = vec2(FM_VERTEX_ID == 1 ? 3.0 : -1.0, FM_VERTEX_ID == 2 ? 3.0 : -1.0);
+    gl_Position = vec4(corner, 0.0, 1.0);
+}

@@ -1,0 +1,40 @@
+// The exclusive section of a store pass: one invocation at a time for each pixel.
+//
+// Invocations of one subgroup may want the same lock, so the section runs inside the branch that took
+// it and the loop goes on for the others: no lane waits for a lane that cannot move. The loop is
+// bounded, and who runs out of tries is counted as lost.
+// FM_LOCK_BARRIERS: where the hardware needs memory barriers they stand outside the branch, which is
+// right and fastest on such devices; Mesa's software rasterisers run without (and miscompile
+// barriers that invocations pass a different number of times).
+void fm_take(uvec2 pixel, float depth, uint colour)
+{
+#if FM_EXCLUSIVE
+    if (!wanted(pixel, depth)) {
+        fm_culled();
+        return;
+    }
+    uint lock = fm_pixel_index(pixel);
+    bool is_done = false;
+    FM_LOOP for (uint tries = 0u; !is_done && tries < uint(FM_SPIN_MAX); ++tries) {
+        bool is_mine = atomicExchange(fm_locks[lock], 1u) == 0u;
+#if FM_LOCK_BARRIERS
+        memoryBarrierBuffer(); // what the last owner stored is visible from here
+#endif
+        if (is_mine)
+            store(pixel, depth, colour);
+#if FM_LOCK_BARRIERS
+        memoryBarrierBuffer(); // what this owner stored is visible before the lock is free
+#endif
+        if (is_mine) {
+            atomicExchange(fm_locks[lock], 0u);
+            is_done = true;
+        }
+    }
+    if (is_done)
+        fm_locked();
+    else
+        fm_lost(pixel);
+#else
+    store(pixel, depth, colour);
+#endif
+}

@@ -1,0 +1,39 @@
+// What every shader of every method sees. The runner puts the parameters (K, N, FM_WIDTH, ...) and
+// the declarations of the resources before this file, and the feed's main() after the method's own.
+
+uint fm_pixel_index(uvec2 pixel)
+{
+    return pixel.y * uint(FM_WIDTH) + pixel.x;
+}
+
+// A fragment as most methods keep it: 8 bytes. Bits of a depth >= 0 compare as the depth does.
+uvec2 fm_pack(float depth, uint colour)
+{
+    return uvec2(floatBitsToUint(abs(depth)), colour);
+}
+const uint FM_EMPTY_BITS = 0x7F800000u; // +infinity: farther than any fragment, 1.0 included
+
+// Fragments that found no room. In a helper invocation atomics do nothing, so none is counted there.
+void fm_lost(uvec2 pixel)
+{
+    atomicAdd(fm_counters[0], 1u);
+}
+
+#ifdef FM_CAPTURE
+// Events are counted in the checked build only: the timed one is undisturbed.
+void fm_culled()
+{
+    atomicAdd(fm_counters[1], 1u);
+}
+void fm_locked()
+{
+    atomicAdd(fm_counters[2], 1u);
+}
+#else
+void fm_culled()
+{
+}
+void fm_locked()
+{
+}
+#endif

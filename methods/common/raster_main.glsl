@@ -1,0 +1,32 @@
+// Feed raster: one invocation of the fragment shader is one fragment.
+void main()
+{
+    uvec2 pixel = uvec2(gl_FragCoord.xy);
+    float depth = gl_FragCoord.z;
+#ifdef FM_PRIMITIVE
+    fm_primitive = fm_in_instance * uint(FM_INSTANCE_TRIANGLES) + uint(gl_PrimitiveID);
+#endif
+    bool is_alive = true;
+#ifdef FM_SURVIVAL
+    is_alive = fm_survives(pixel, fm_in_layer);
+#endif
+#if FM_HELPER_GUARD
+    // A helper lane's atomics do nothing: it would wait for a lock for ever.
+    is_alive = is_alive && !gl_HelperInvocation;
+#endif
+#if FM_TARGETS
+    if (!is_alive)
+        discard;
+#endif
+#if FM_INTERLOCK
+    // GLSL allows the two calls in main() only, and not behind a return.
+    is_alive = is_alive && wanted(pixel, depth);
+    beginInvocationInterlockARB();
+    if (is_alive)
+        store(pixel, depth, fm_in_colour);
+    endInvocationInterlockARB();
+#else
+    if (is_alive)
+        fm_take(pixel, depth, fm_in_colour);
+#endif
+}

@@ -1,0 +1,56 @@
+/* A method on a device, set up for one scene, feed and set of options: its resources, its
+ * pipelines, and the frames that it runs. The timed build composites; the checked build
+ * (is_capture) counts events and writes the emitted fragments of a band of pixels down. */
+#ifndef FM_INSTANCE_H
+#define FM_INSTANCE_H
+
+#include "plan.h"
+#include "stage.h"
+
+typedef struct fm_instance fm_instance;
+
+typedef struct fm_instance_desc {
+    fm_stage *stage;
+    const fm_method_desc *method;
+    fm_shader_folders folders;
+    const fm_settings *settings; /* k, lock, pool, full_screen */
+    const fm_choice *choices;
+    size_t choice_count;
+    uint64_t fragments, fragments_kept; /* F and F_k of the scene, for formulas */
+    bool is_capture;
+    uint32_t capture_slots; /* fragments a pixel that the checked build has room for */
+    bool wants_primitive;   /* shaders see fm_primitive, the number of the triangle */
+} fm_instance_desc;
+
+/* Pixels whose fragments a checked frame writes down. */
+typedef struct fm_band {
+    uint32_t first, pixels;
+} fm_band;
+
+typedef struct fm_frame_result {
+    uint64_t pass_ns[FM_MAX_PASSES]; /* in the descriptor's order, all iterations together */
+    uint64_t canary_ns;              /* an empty interval at the frame's start */
+    uint64_t wall_ns;                /* host time with read-backs */
+    uint64_t lost, culled, locked;   /* fragments; the last two in the checked build only */
+    uint32_t redos;                  /* frames done again because something had to grow */
+} fm_frame_result;
+
+/* FM_UNSUPPORTED: the device lacks something, with the reason; FM_SHADER: with plugin and pass. */
+fm_status instance_create(fm_instance **instance, const fm_instance_desc *desc, fm_error *err);
+void instance_destroy(fm_instance *instance);
+
+/* One whole frame. band may be NULL. */
+fm_status instance_frame(fm_frame_result *result, fm_instance *instance, const fm_band *band,
+                         fm_error *err);
+/* The emitting passes again, for another band; only if instance_can_emit_again. */
+fm_status instance_emit(fm_instance *instance, const fm_band *band, fm_error *err);
+bool instance_can_emit_again(const fm_instance *instance);
+
+/* Bytes as the descriptor's formula says, after a frame has sized everything. */
+uint64_t instance_bytes_predicted(const fm_instance *instance);
+/* Bytes of elements that hold something in a frame. */
+uint64_t instance_bytes_used(const fm_instance *instance);
+/* The resource of this name; its buffer may be read between frames. NULL: none. */
+fm_slot *instance_slot(fm_instance *instance, const char *name);
+
+#endif

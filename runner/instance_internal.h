@@ -1,0 +1,65 @@
+/* Shared by instance.c (set-up), instance_passes.c (pipelines), instance_resources.c (buffers) and
+ * instance_frame.c (frames); nobody else. */
+#ifndef FM_INSTANCE_INTERNAL_H
+#define FM_INSTANCE_INTERNAL_H
+
+#include "instance.h"
+
+enum { INSTANCE_USES_MAX = FM_MAX_BINDINGS - SHADER_BINDING_FIRST };
+
+/* A resource in a pass: which one, and whether the copy of the last iteration. */
+typedef struct resource_ref {
+    int index;
+    bool is_previous;
+} resource_ref;
+
+/* A pass with all that data could say worked out. */
+typedef struct built_pass {
+    fm_use uses[INSTANCE_USES_MAX]; /* bindings in order; slots of ping-pong resources are
+                                       swapped when the pass runs */
+    size_t use_count;
+    size_t stage_use_count;               /* of them, the first: read by the feed */
+    resource_ref refs[INSTANCE_USES_MAX]; /* index -1: not the method's */
+    fm_pipeline **pipelines;              /* one, or one an iteration where state depends on it */
+    uint32_t pipeline_count;
+    bool is_drawn; /* a draw; else a dispatch */
+} built_pass;
+
+struct fm_instance {
+    fm_instance_desc desc;
+    const fm_method_desc *method;
+    fm_device *device;
+    fm_workload workload;
+    uint64_t totals[FM_MAX_TOTALS];
+    bool total_is_known[FM_MAX_TOTALS];
+    fm_slot resources[FM_MAX_RESOURCES][2]; /* the second copy: ping-pong only */
+    uint64_t grown[FM_MAX_RESOURCES];       /* elements added by overflows */
+    uint32_t parity;                        /* which copy is written */
+    fm_slot locks;
+    fm_buffer *table; /* addresses and lengths */
+    built_pass passes[FM_MAX_PASSES];
+    size_t pass_count, resource_count, total_count;
+    bool is_spin_locked;
+    bool emits_back;
+    built_pass combine;
+};
+
+/* instance_resources.c */
+fm_status resources_create_fixed(fm_instance *instance, fm_error *err);
+/* Those whose size follows the total of this number. */
+fm_status resources_create_after(fm_instance *instance, size_t total, fm_error *err);
+/* Makes room after an overflow; *grew tells whether there was one. */
+fm_status resources_grow(bool *grew, fm_instance *instance, size_t total, fm_error *err);
+void resources_destroy(fm_instance *instance);
+uint64_t resource_elements(const fm_instance *instance, size_t index);
+fm_status table_upload(fm_instance *instance, fm_error *err);
+int resource_index(const fm_method_desc *method, const char *name, bool *is_previous);
+int total_index(const fm_method_desc *method, const char *name);
+int pass_index(const fm_method_desc *method, const char *name);
+
+/* instance_passes.c */
+fm_status passes_create(fm_instance *instance, fm_error *err);
+void passes_destroy(fm_instance *instance);
+const char *option_value(const fm_instance *instance, const fm_option *option);
+
+#endif

@@ -1,0 +1,266 @@
+#include "instance_internal.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char previous_suffix[] = "_previous";
+
+int resource_index(const fm_method_desc *method, const char *name, bool *is_previous)
+{
+    size_t length = strlen(name);
+    const size_t suffix = sizeof previous_suffix - 1;
+    *is_previous = length > suffix && strcmp(name + length - suffix, previous_suffix) == 0;
+    if (*is_previous)
+        length -= suffix;
+    for (int i = 0; i < FM_MAX_RESOURCES && method->resources[i].name != NULL; i++)
+        if (strlen(method->resources[i].name) == length &&
+            memcmp(method->resources[i].name, name, length) == 0)
+            return i;
+    return -1;
+}
+
+int total_index(const fm_method_desc *method, const char *name)
+{
+    for (int i = 0; name != NULL && i < FM_MAX_TOTALS && method->totals[i].name != NULL; i++)
+        if (strcmp(method->totals[i].name, name) == 0)
+            return i;
+    return -1;
+}
+
+int pass_index(const fm_method_desc *method, const char *name)
+{
+    for (int i = 0; name != NULL && i < FM_MAX_PASSES && method->passes[i].name != NULL; i++)
+        if (strcmp(method->passes[i].name, name) == 0)
+            return i;
+    return -1;
+}
+
+static uint64_t tiles(const fm_workload *workload)
+{
+    const uint64_t across = (workload->width_px + FM_TILE_PX - 1) / FM_TILE_PX;
+    const uint64_t down = (workload->height_px + FM_TILE_PX - 1) / FM_TILE_PX;
+    return across * down;
+}
+
+static uint64_t option_number(const fm_workload *workload, const char *name)
+{
+    const char *value = name != NULL ? workload->option(workload, name) : NULL;
+    uint64_t number = 0;
+    return value != NULL && text_to_u64(&number, value) ? number : 0;
+}
+
+/* The extent's formula; a named total that is not known counts as 0. */
+static uint64_t extent_elements(const fm_instance *instance, const fm_extent *extent)
+{
+    const fm_workload *workload = &instance->workload;
+    const uint64_t pixels = (uint64_t)workload->width_px * workload->height_px;
+    const int total = total_index(instance->method, extent->total);
+    return extent->constant + extent->per_pixel * pixels +
+           extent->per_pixel_k * pixels * workload->k + extent->per_pixel_n * pixels * workload->n +
+           extent->per_tile * tiles(workload) + extent->per_triangle * workload->triangles +
+           extent->per_total * (total >= 0 ? instance->totals[total] : 0) +
+           extent->per_option * option_number(workload, extent->option);
+}
+
+uint64_t resource_elements(const fm_instance *instance, size_t index)
+{
+    return extent_elements(instance, &instance->method->resources[index].extent) +
+           instance->grown[index];
+}
+
+static fm_status create_buffer(fm_instance *instance, fm_slot *slot, const fm_resource *resource,
+                               uint64_t elements, fm_error *err)
+{
+    const uint64_t length = elements > 0 ? elements : 1; /* an empty scene still binds something */
+    const fm_buffer_desc desc = { .name = resource->name,
+                                  .bytes = length * fm_element_bytes(resource->element),
+                                  .owner = FM_OWNER_METHOD,
+                                  .is_indirect = true,
+                                  .host_reads = resource->extent.constant > 0 };
+    slot->length = length;
+    return slot_create_buffer(slot, instance->device, instance->desc.settings->buffers, &desc, err);
+}
+
+static uint32_t image_layers(const fm_instance *instance, const fm_resource *resource)
+{
+    const uint32_t layers = resource->layers + resource->layers_per_k * instance->workload.k;
+    return layers > 0 ? layers : 1;
+}
+
+static fm_status create_image(fm_instance *instance, fm_slot *slot, const fm_resource *resource,
+                              fm_error *err)
+{
+    slot->format = resource->format;
+    slot->samples = resource->samples > 0 ? resource->samples : 1;
+    slot->layers = image_layers(instance, resource);
+    const fm_image_desc desc = { .name = resource->name,
+                                 .format = slot->format,
+                                 .width_px = instance->workload.width_px,
+                                 .height_px = instance->workload.height_px,
+                                 .layers = slot->layers,
+                                 .samples = slot->samples,
+                                 .owner = FM_OWNER_METHOD };
+    return instance->device->ops->image_create(&slot->image, instance->device, &desc, err);
+}
+
+static fm_status create_resource(fm_instance *instance, size_t index, fm_error *err)
+{
+    const fm_resource *resource = &instance->method->resources[index];
+    const int copies = resource->ping_pong ? 2 : 1;
+    fm_status status = FM_OK;
+    for (int copy = 0; copy < copies && status == FM_OK; copy++) {
+        fm_slot *slot = &instance->resources[index][copy];
+        slot_destroy(slot, instance->device);
+        status =
+            resource->kind == FM_RESOURCE_IMAGE
+                ? create_image(instance, slot, resource, err)
+                : create_buffer(instance, slot, resource, resource_elements(instance, index), err);
+    }
+    return status;
+}
+
+static fm_status create_locks(fm_instance *instance, fm_error *err)
+{
+    const uint64_t pixels = (uint64_t)instance->workload.width_px * instance->workload.height_px;
+    const fm_buffer_desc desc = { .name = "fm_locks",
+                                  .bytes = pixels * 4,
+                                  .owner = FM_OWNER_METHOD };
+    slot_destroy(&instance->locks, instance->device);
+    instance->locks.length = pixels;
+    fm_status status = slot_create_buffer(&instance->locks, instance->device,
+                                          instance->desc.settings->buffers, &desc, err);
+    fm_frame_times times;
+    if (status != FM_OK)
+        return status;
+    /* Filled once: locks are free between frames. */
+    status = instance->device->ops->frame_begin(instance->device, err);
+    if (status == FM_OK)
+        instance->device->ops->fill(instance->device, instance->locks.buffer, 0);
+    return status == FM_OK ? instance->device->ops->frame_end(instance->device, &times, err)
+                           : status;
+}
+
+fm_status resources_create_fixed(fm_instance *instance, fm_error *err)
+{
+    fm_status status = FM_OK;
+    for (size_t i = 0; i < instance->resource_count && status == FM_OK; i++)
+        if (instance->method->resources[i].sizing != FM_SIZE_AFTER_TOTAL)
+            status = create_resource(instance, i, err);
+    if (status == FM_OK && instance->is_spin_locked)
+        status = create_locks(instance, err);
+    return status == FM_OK ? table_upload(instance, err) : status;
+}
+
+fm_status resources_create_after(fm_instance *instance, size_t total, fm_error *err)
+{
+    const char *name = instance->method->totals[total].name;
+    bool changed = false;
+    fm_status status = FM_OK;
+    for (size_t i = 0; i < instance->resource_count && status == FM_OK; i++) {
+        const fm_resource *resource = &instance->method->resources[i];
+        const fm_slot *slot = &instance->resources[i][0];
+        if (resource->sizing != FM_SIZE_AFTER_TOTAL || strcmp(resource->extent.total, name) != 0)
+            continue;
+        if (slot->buffer != NULL && slot->length >= resource_elements(instance, i))
+            continue;
+        status = create_resource(instance, i, err);
+        changed = true;
+    }
+    return status == FM_OK && changed ? table_upload(instance, err) : status;
+}
+
+fm_status resources_grow(bool *grew, fm_instance *instance, size_t total, fm_error *err)
+{
+    const char *name = instance->method->totals[total].name;
+    fm_status status = FM_OK;
+    *grew = false;
+    for (size_t i = 0; i < instance->resource_count && status == FM_OK; i++) {
+        const fm_resource *resource = &instance->method->resources[i];
+        if (resource->sizing != FM_SIZE_GROW || strcmp(resource->overflow, name) != 0 ||
+            instance->totals[total] == 0)
+            continue;
+        instance->grown[i] += instance->totals[total];
+        *grew = true;
+        status = create_resource(instance, i, err);
+    }
+    return status == FM_OK && *grew ? table_upload(instance, err) : status;
+}
+
+void resources_destroy(fm_instance *instance)
+{
+    for (size_t i = 0; i < instance->resource_count; i++)
+        for (int copy = 0; copy < 2; copy++)
+            slot_destroy(&instance->resources[i][copy], instance->device);
+    slot_destroy(&instance->locks, instance->device);
+}
+
+static void table_line(fm_table_line *lines, const fm_instance *instance, const fm_slot *slot)
+{
+    if (slot->buffer == NULL)
+        return;
+    lines[slot->table_index].length =
+        slot->length < UINT32_MAX ? (uint32_t)slot->length : UINT32_MAX;
+    if (slot->by_address)
+        lines[slot->table_index].address = instance->device->ops->buffer_address(slot->buffer);
+}
+
+fm_status table_upload(fm_instance *instance, fm_error *err)
+{
+    fm_table_line lines[FM_MAX_BINDINGS] = { 0 };
+    for (int i = 0; i < STAGE_SLOT_COUNT; i++)
+        table_line(lines, instance, &instance->desc.stage->slots[i]);
+    for (size_t i = 0; i < instance->resource_count; i++) {
+        const fm_slot *copies = instance->resources[i];
+        const bool is_double = copies[1].buffer != NULL;
+        table_line(lines, instance, &copies[is_double ? instance->parity : 0]);
+        if (is_double) /* the line after the resource's own: what the last iteration wrote */
+            table_line(lines, instance, &copies[1 - instance->parity]);
+    }
+    table_line(lines, instance, &instance->locks);
+    return instance->device->ops->buffer_write(instance->device, instance->table, 0, lines,
+                                               sizeof lines, err);
+}
+
+static uint64_t image_bytes(const fm_instance *instance, const fm_resource *resource)
+{
+    const uint64_t pixels = (uint64_t)instance->workload.width_px * instance->workload.height_px;
+    return pixels * fm_format_bytes(resource->format) * image_layers(instance, resource) *
+           (resource->samples > 0 ? resource->samples : 1);
+}
+
+uint64_t instance_bytes_predicted(const fm_instance *instance)
+{
+    const fm_method_desc *method = instance->method;
+    const uint64_t pixels = (uint64_t)instance->workload.width_px * instance->workload.height_px;
+    const uint64_t locks = instance->is_spin_locked ? pixels * 4 : 0;
+    uint64_t bytes = 0;
+    if (method->bytes != NULL)
+        return method->bytes(&instance->workload) + locks;
+    for (size_t i = 0; i < instance->resource_count; i++) {
+        const fm_resource *resource = &method->resources[i];
+        const uint64_t elements = extent_elements(instance, &resource->extent);
+        const uint64_t one =
+            resource->kind == FM_RESOURCE_IMAGE
+                ? image_bytes(instance, resource)
+                : (elements > 0 ? elements : 1) * fm_element_bytes(resource->element);
+        bytes += one * (resource->ping_pong ? 2 : 1);
+    }
+    return bytes + locks;
+}
+
+uint64_t instance_bytes_used(const fm_instance *instance)
+{
+    const uint64_t pixels = (uint64_t)instance->workload.width_px * instance->workload.height_px;
+    uint64_t bytes = instance->is_spin_locked ? pixels * 4 : 0;
+    for (size_t i = 0; i < instance->resource_count; i++) {
+        const fm_resource *resource = &instance->method->resources[i];
+        const uint64_t elements = resource->used.per_pixel * pixels +
+                                  resource->used.per_fragment * instance->workload.fragments +
+                                  resource->used.per_kept * instance->workload.fragments_kept;
+        bytes += resource->kind == FM_RESOURCE_IMAGE
+                     ? image_bytes(instance, resource)
+                     : elements * fm_element_bytes(resource->element);
+    }
+    return bytes;
+}

@@ -1,0 +1,216 @@
+#include "shader.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { INCLUDE_DEPTH_MAX = 8, SHADER_FILE_MAX_BYTES = 1 << 20 };
+
+static const char *const element_type[] = {
+    [FM_ELEMENT_UINT] = "uint",       [FM_ELEMENT_UVEC2] = "uvec2", [FM_ELEMENT_UVEC4] = "uvec4",
+    [FM_ELEMENT_FLOAT] = "float",     [FM_ELEMENT_VEC2] = "vec2",   [FM_ELEMENT_VEC4] = "vec4",
+    [FM_ELEMENT_UINT64] = "uint64_t",
+};
+_Static_assert(sizeof element_type / sizeof element_type[0] == FM_ELEMENT_COUNT, "one each");
+
+/* How GLSL names an image format. */
+static const struct format_words {
+    const char *target, *vector, *prefix, *qualifier;
+} format_words[] = {
+    [FM_FORMAT_NONE] = { "float", "vec4", "", "" },
+    [FM_FORMAT_R32UI] = { "uint", "uvec4", "u", "r32ui" },
+    [FM_FORMAT_RG32UI] = { "uvec2", "uvec4", "u", "rg32ui" },
+    [FM_FORMAT_RGBA32UI] = { "uvec4", "uvec4", "u", "rgba32ui" },
+    [FM_FORMAT_R32F] = { "float", "vec4", "", "r32f" },
+    [FM_FORMAT_RG32F] = { "vec2", "vec4", "", "rg32f" },
+    [FM_FORMAT_RGBA32F] = { "vec4", "vec4", "", "rgba32f" },
+    [FM_FORMAT_RGBA8] = { "vec4", "vec4", "", "rgba8" },
+    [FM_FORMAT_D32F] = { "float", "vec4", "", "" },
+    [FM_FORMAT_D32F_S8] = { "float", "vec4", "", "" },
+};
+_Static_assert(sizeof format_words / sizeof format_words[0] == FM_FORMAT_COUNT, "one each");
+
+const char *shader_element_type(fm_element element)
+{
+    return element_type[element];
+}
+
+const char *shader_target_type(fm_format format)
+{
+    return format_words[format].target;
+}
+
+void shader_define(fm_text *text, const char *name, uint64_t value)
+{
+    text_add(text, "#define %s %" PRIu64 "%s\n", name, value, value > INT32_MAX ? "u" : "");
+}
+
+void shader_begin(fm_text *text, const fm_device_caps *caps, bool any_address, bool has_interlock)
+{
+    text_add(text, "#version 450\n");
+    if (any_address)
+        text_add(text, "#extension GL_EXT_buffer_reference : require\n");
+    if (has_interlock)
+        text_add(text, "#extension GL_ARB_fragment_shader_interlock : require\n");
+    if ((caps->features & FM_FEATURE_INT64_ATOMICS) != 0)
+        text_add(text, "#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require\n"
+                       "#extension GL_EXT_shader_atomic_int64 : require\n");
+    text_add(text,
+             "#ifdef VULKAN\n"
+             "#extension GL_EXT_control_flow_attributes : require\n"
+             "#define FM_LOOP [[dont_unroll]]\n" /* compile time falls, run time does not rise */
+             "#define FM_VERTEX_ID gl_VertexIndex\n"
+             "#define FM_INSTANCE_ID gl_InstanceIndex\n"
+             "#else\n"
+             "#define FM_LOOP\n"
+             "#define FM_VERTEX_ID gl_VertexID\n"
+             "#define FM_INSTANCE_ID gl_InstanceID\n"
+             "#endif\n");
+    shader_define(text, "FM_HELPER_GUARD", caps->needs_helper_guard);
+    shader_define(text, "FM_LOCK_BARRIERS", caps->needs_lock_barriers);
+}
+
+static const char *qualifier(const fm_use *use)
+{
+    if ((use->access & FM_ACCESS_WRITE) == 0)
+        return "readonly ";
+    return use->is_coherent ? "coherent " : "";
+}
+
+static void declare_buffer(fm_text *text, const fm_use *use)
+{
+    const fm_slot *slot = use->slot;
+    if (slot->by_address)
+        text_add(text, "#define %s fm_pointer_%s.items\n", slot->name, slot->name);
+    else
+        text_add(text, "layout(std430, binding = %u) %sbuffer fm_block_%s { %s %s[]; };\n",
+                 use->binding, qualifier(use), slot->name, slot->type, slot->name);
+}
+
+static void declare_sampled(fm_text *text, const fm_use *use)
+{
+    const fm_slot *slot = use->slot;
+    const struct format_words *words = &format_words[slot->format];
+    const bool is_array = slot->layers > 1, is_multisampled = slot->samples > 1;
+    text_add(text, "layout(binding = %u) uniform %ssampler2D%s%s fm_image_%s;\n", use->binding,
+             words->prefix, is_multisampled ? "MS" : "", is_array ? "Array" : "", slot->name);
+    text_add(text, "%s fm_load_%s(uvec2 pixel%s%s) { return texelFetch(fm_image_%s, %s, %s); }\n",
+             words->vector, slot->name, is_array ? ", uint layer" : "",
+             is_multisampled ? ", int samp" : "", slot->name,
+             is_array ? "ivec3(pixel, layer)" : "ivec2(pixel)", is_multisampled ? "samp" : "0");
+}
+
+static void declare_storage_image(fm_text *text, const fm_use *use)
+{
+    const fm_slot *slot = use->slot;
+    const struct format_words *words = &format_words[slot->format];
+    const bool is_array = slot->layers > 1;
+    const char *at = is_array ? "ivec3(pixel, layer)" : "ivec2(pixel)";
+    const char *extra = is_array ? ", uint layer" : "";
+    text_add(text, "layout(binding = %u, %s) uniform %s%simage2D%s fm_image_%s;\n", use->binding,
+             words->qualifier, use->is_coherent ? "coherent " : "", words->prefix,
+             is_array ? "Array" : "", slot->name);
+    text_add(text, "%s fm_load_%s(uvec2 pixel%s) { return imageLoad(fm_image_%s, %s); }\n",
+             words->vector, slot->name, extra, slot->name, at);
+    text_add(text,
+             "void fm_store_%s(uvec2 pixel%s, %s value) { imageStore(fm_image_%s, %s, value); }\n",
+             slot->name, extra, words->vector, slot->name, at);
+}
+
+/* Lines of the table that the pass needs, in order: std140 wants rising offsets. */
+static void declare_table(fm_text *text, const fm_use *uses, size_t count)
+{
+    fm_text lines = { 0 };
+    for (uint32_t line = 0; line < FM_MAX_BINDINGS; line++) {
+        for (size_t i = 0; i < count; i++) {
+            const fm_slot *slot = uses[i].slot;
+            if (slot->format != FM_FORMAT_NONE || !slot->in_table || slot->table_index != line)
+                continue;
+            if (slot->by_address)
+                text_add(&lines, "    layout(offset = %u) fm_reference_%s fm_pointer_%s;\n",
+                         line * SHADER_TABLE_STRIDE, slot->name, slot->name);
+            text_add(&lines, "    layout(offset = %u) uint fm_length_%s;\n",
+                     line * SHADER_TABLE_STRIDE + 8u, slot->name);
+        }
+    }
+    if (lines.length > 0)
+        text_add(text, "layout(std140, binding = %d) uniform fm_table_block {\n%s};\n",
+                 SHADER_BINDING_TABLE, lines.bytes);
+    text_free(&lines);
+}
+
+void shader_declare(fm_text *text, const fm_use *uses, size_t count)
+{
+    text_add(text,
+             "layout(std140, binding = %d) uniform fm_params_block {\n"
+             "    uint fm_iteration, fm_band_first, fm_band_pixels;\n};\n",
+             SHADER_BINDING_PARAMS);
+    for (size_t i = 0; i < count; i++)
+        if (uses[i].slot->by_address)
+            text_add(text,
+                     "layout(buffer_reference, std430, buffer_reference_align = 16) %sbuffer "
+                     "fm_reference_%s { %s items[]; };\n",
+                     qualifier(&uses[i]), uses[i].slot->name, uses[i].slot->type);
+    declare_table(text, uses, count);
+    for (size_t i = 0; i < count; i++) {
+        if (uses[i].slot->format == FM_FORMAT_NONE)
+            declare_buffer(text, &uses[i]);
+        else if ((uses[i].access & FM_ACCESS_WRITE) != 0)
+            declare_storage_image(text, &uses[i]);
+        else
+            declare_sampled(text, &uses[i]);
+    }
+}
+
+static void find_file(char path[FM_PATH_MAX_BYTES], const fm_shader_folders *folders,
+                      const char *file)
+{
+    if (strncmp(file, "common/", 7) == 0)
+        snprintf(path, FM_PATH_MAX_BYTES, "%s/%s", folders->common, file + 7);
+    else if (strchr(file, '/') != NULL)
+        snprintf(path, FM_PATH_MAX_BYTES, "%s/../%s", folders->method, file);
+    else
+        snprintf(path, FM_PATH_MAX_BYTES, "%s/%s", folders->method, file);
+}
+
+/* The file named in a line `#include "file"`, or false. */
+static bool include_of(char file[128], const char *line)
+{
+    return sscanf(line, " #include \"%127[^\"]\"", file) == 1;
+}
+
+static fm_status add_file(fm_text *text, const fm_shader_folders *folders, const char *file,
+                          int depth, fm_error *err)
+{
+    char path[FM_PATH_MAX_BYTES], included[128];
+    char *bytes = NULL;
+    size_t count = 0;
+    if (depth > INCLUDE_DEPTH_MAX)
+        return fm_fail(err, FM_INVALID, "%s: includes nest deeper than %d", file,
+                       INCLUDE_DEPTH_MAX);
+    if (strstr(file, "..") != NULL || file[0] == '/')
+        return fm_fail(err, FM_INVALID, "%s: shader files are named by METHOD/FILE or FILE", file);
+    find_file(path, folders, file);
+    fm_status status = text_read_file(&bytes, &count, path, SHADER_FILE_MAX_BYTES, err);
+    if (status != FM_OK)
+        return status;
+    for (char *line = bytes; status == FM_OK && *line != '\0';) {
+        char *end = strchr(line, '\n');
+        const size_t length = end != NULL ? (size_t)(end - line) + 1 : strlen(line);
+        if (include_of(included, line))
+            status = add_file(text, folders, included, depth + 1, err);
+        else
+            text_add_raw(text, line, length);
+        line += length;
+    }
+    text_add(text, "\n");
+    free(bytes);
+    return status;
+}
+
+fm_status shader_add_file(fm_text *text, const fm_shader_folders *folders, const char *file,
+                          fm_error *err)
+{
+    return add_file(text, folders, file, 0, err);
+}

@@ -1,0 +1,132 @@
+/* What the shaders of a scene pass need to know of the scene and the feed. */
+#include "stage.h"
+
+#include <inttypes.h>
+
+enum { GROUP_SIZE = 64 };
+
+static bool is_layers(const fm_stage *stage)
+{
+    return stage->scene->settings.generator == FM_GENERATOR_LAYERS;
+}
+
+static bool is_cell_major(const fm_stage *stage)
+{
+    return is_layers(stage) && stage->scene->settings.order == FM_ORDER_CELL_MAJOR;
+}
+
+static void define_layers(fm_text *text, const fm_stage *stage, bool is_flat)
+{
+    const fm_scene *scene = stage->scene;
+    const uint64_t seed = scene->settings.seed;
+    shader_define(text, "FM_LAYERS", scene->n);
+    shader_define(text, "FM_TESSELLATION", is_flat ? 1 : scene->settings.tessellation);
+    shader_define(text, "FM_CELL_MAJOR", is_cell_major(stage) && !is_flat);
+    shader_define(text, "FM_ORDER_ROWS", is_flat ? 1 : scene->order_rows);
+    shader_define(text, "FM_RECT_X0", scene->rect.x0);
+    shader_define(text, "FM_RECT_Y0", scene->rect.y0);
+    shader_define(text, "FM_RECT_X1", scene->rect.x1);
+    shader_define(text, "FM_RECT_Y1", scene->rect.y1);
+    if (scene->survival_threshold != UINT32_MAX) {
+        text_add(text, "#define FM_SURVIVAL %uu\n", scene->survival_threshold);
+        text_add(text, "#define FM_SEED32 %uu\n", (uint32_t)(seed ^ seed >> 32));
+    }
+    text_add(text, "struct fm_layer { float depth, slope_x, slope_y; uint colour; };\n");
+}
+
+void stage_define(fm_text *text, const fm_stage *stage, bool is_flat)
+{
+    const fm_scene *scene = stage->scene;
+    shader_define(text, "FM_WIDTH", scene->width_px);
+    shader_define(text, "FM_HEIGHT", scene->height_px);
+    shader_define(text, "FM_PIXELS", (uint64_t)scene->width_px * scene->height_px);
+    if (is_layers(stage))
+        define_layers(text, stage, is_flat);
+    if (stage->feed == FM_FEED_RASTER)
+        return;
+    shader_define(text, "FM_FEED_PIXEL", stage->feed == FM_FEED_COMPUTE_PIXEL);
+    shader_define(text, "FM_FEED_ADJACENT", stage->feed == FM_FEED_COMPUTE_ADJACENT);
+    text_add(text, "#define FM_INVOCATIONS %" PRIu64 "u\n", stage->invocations);
+    if (stage->replays)
+        text_add(text, "#define FM_REPLAY\n");
+}
+
+size_t stage_uses(fm_use *uses, fm_stage *stage)
+{
+    size_t count = 0;
+    for (uint32_t i = STAGE_LAYERS; i <= STAGE_LIST_OFFSETS; i++)
+        if (stage->slots[i].buffer != NULL)
+            uses[count++] = (fm_use){ .slot = &stage->slots[i], .access = FM_ACCESS_READ };
+    return count;
+}
+
+fm_status stage_vertex_shader(fm_text *text, const fm_use *uses, size_t use_count,
+                              const fm_stage *stage, const fm_shader_folders *folders, bool is_flat,
+                              fm_error *err)
+{
+    bool any_address = false;
+    for (size_t i = 0; i < use_count; i++)
+        any_address = any_address || uses[i].slot->by_address;
+    shader_begin(text, &stage->device->caps, any_address, false);
+    stage_define(text, stage, is_flat);
+    shader_declare(text, uses, use_count);
+    fm_status status = FM_OK;
+    if (is_layers(stage))
+        status = shader_add_file(text, folders, "common/layers.glsl", err);
+    if (status == FM_OK)
+        status = shader_add_file(
+            text, folders,
+            is_layers(stage) ? "common/layers_vertex.glsl" : "common/mesh_vertex.glsl", err);
+    return status;
+}
+
+void stage_draw(fm_draw *draw, const fm_stage *stage, bool is_flat)
+{
+    const fm_scene *scene = stage->scene;
+    const uint32_t t = scene->settings.tessellation, cells = t * t;
+    draw->indices = stage->indices;
+    if (!is_layers(stage)) {
+        draw->vertices = stage->vertices;
+        draw->vertex_count = scene->index_count;
+        draw->instance_count = scene->instances;
+    } else if (is_flat) {
+        draw->indices = stage->flat_indices;
+        draw->vertex_count = 6;
+        draw->instance_count = scene->n;
+    } else if (is_cell_major(stage)) {
+        draw->vertex_count = 6 * scene->n;
+        draw->instance_count = cells;
+    } else {
+        draw->vertex_count = 6 * cells;
+        draw->instance_count = scene->n;
+    }
+}
+
+void stage_vertex_layout(fm_pipeline_desc *desc, const fm_stage *stage)
+{
+    if (is_layers(stage))
+        return;
+    desc->vertex_stride_bytes = sizeof(fm_vertex);
+    desc->attribute_count = 2;
+    desc->attributes[0] =
+        (fm_vertex_attribute){ .location = 0, .element = FM_ELEMENT_FLOAT, .is_vec3 = true };
+    desc->attributes[1] = (fm_vertex_attribute){ .location = 1,
+                                                 .element = FM_ELEMENT_UINT,
+                                                 .offset_bytes = offsetof(fm_vertex, colour) };
+}
+
+fm_status stage_groups(uint32_t groups[3], const fm_device_caps *caps, uint64_t invocations,
+                       fm_error *err)
+{
+    const uint64_t needed = (invocations + GROUP_SIZE - 1) / GROUP_SIZE;
+    const uint64_t wide = needed < caps->max_groups[0] ? needed : caps->max_groups[0];
+    const uint64_t high = wide > 0 ? (needed + wide - 1) / wide : 0;
+    if (high > caps->max_groups[1])
+        return fm_fail(err, FM_UNSUPPORTED,
+                       "%" PRIu64 " workgroups; a dispatch has %u x %u at most", needed,
+                       caps->max_groups[0], caps->max_groups[1]);
+    groups[0] = (uint32_t)wide;
+    groups[1] = (uint32_t)high;
+    groups[2] = 1;
+    return FM_OK;
+}
