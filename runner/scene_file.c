@@ -252,8 +252,11 @@ static fm_status check_items(const fm_settings *settings, const fm_yaml *root, c
 
 fm_status scene_file_read(fm_settings *settings, const char *path, fm_error *err)
 {
+    fm_error own;
     fm_yaml *root = NULL;
     fm_settings read;
+    if (err == NULL)
+        err = &own;
     settings_default(&read);
     fm_status status = yaml_tree_read(&root, path, err);
     if (status != FM_OK)

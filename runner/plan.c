@@ -1,0 +1,185 @@
+#include "plan.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "chosen.h"
+#include "plan_case.h"
+
+enum { ID_SLOTS = 4 * FM_PLAN_MAX_CASES };
+
+/* Everything looked up, and the cases so far. */
+typedef struct expansion {
+    fm_chosen chosen;
+    fm_case *cases;
+    size_t count, capacity;
+    uint64_t *ids; /* [ID_SLOTS], open addressing; 0: free */
+    fm_mesh_memo memo;
+    fm_error *err;
+} expansion;
+
+static fm_status no_memory(fm_error *err)
+{
+    return fm_fail(err, FM_NO_MEMORY, "no memory for the plan");
+}
+
+static bool is_swept(const fm_plugin_entry *entry, const fm_sweep *sweep)
+{
+    if (entry->plugin == NULL) /* one case says that it was refused */
+        return false;
+    return sweep->key != NULL || option_find(entry->plugin->method, sweep->name) != NULL;
+}
+
+/* How many cases the axes make, before equal ones become one; FM_PLAN_MAX_CASES + 1: more. */
+static uint64_t count_cases(const fm_chosen *chosen)
+{
+    uint64_t sum = 0;
+    const uint64_t places = chosen->selection.names[FM_LISTED_SCENES].count *
+                            chosen->selection.names[FM_LISTED_DEVICES].count *
+                            chosen->selection.names[FM_LISTED_FEEDS].count;
+    for (size_t i = 0; i < chosen->method_count; i++) {
+        uint64_t product = places;
+        for (size_t j = 0; j < chosen->selection.sweep_count; j++) {
+            if (product > FM_PLAN_MAX_CASES)
+                return FM_PLAN_MAX_CASES + 1;
+            if (is_swept(chosen->methods[i], &chosen->selection.sweeps[j]))
+                product *= chosen->selection.sweeps[j].values.count;
+        }
+        sum += product;
+        if (sum > FM_PLAN_MAX_CASES)
+            return FM_PLAN_MAX_CASES + 1;
+    }
+    return sum;
+}
+
+/* Takes the id; false: another case has it. */
+static bool take_id(expansion *of, const char *text)
+{
+    const uint64_t id = strtoull(text, NULL, 16) | 1; /* 0 is a free slot */
+    size_t slot = (size_t)(id >> 1) % ID_SLOTS;
+    for (; of->ids[slot] != 0; slot = (slot + 1) % ID_SLOTS)
+        if (of->ids[slot] == id)
+            return false;
+    of->ids[slot] = id;
+    return true;
+}
+
+static fm_status add_case(expansion *of, const fm_plan_point *point)
+{
+    if (of->count == of->capacity) {
+        const size_t capacity = of->capacity > 0 ? 2 * of->capacity : 64;
+        fm_case *cases = realloc(of->cases, capacity * sizeof *cases);
+        if (cases == NULL)
+            return no_memory(of->err);
+        of->cases = cases;
+        of->capacity = capacity;
+    }
+    const fm_status status = plan_case_make(&of->cases[of->count], point, of->err);
+    if (status == FM_OK && take_id(of, of->cases[of->count].id))
+        of->count++;
+    return status;
+}
+
+/* The next point, the last axis fastest; false: there is none. */
+static bool next_point(size_t *values, const expansion *of, const fm_plugin_entry *entry)
+{
+    for (size_t i = of->chosen.selection.sweep_count; i-- > 0;) {
+        const fm_sweep *sweep = &of->chosen.selection.sweeps[i];
+        if (!is_swept(entry, sweep))
+            continue;
+        if (++values[i] < sweep->values.count)
+            return true;
+        values[i] = 0;
+    }
+    return false;
+}
+
+static fm_status expand_methods(expansion *of, fm_plan_point *point)
+{
+    size_t values[FM_MAX_SWEEPS] = { 0 };
+    fm_status status = FM_OK;
+    point->values = values;
+    for (size_t i = 0; i < of->chosen.method_count; i++) {
+        point->entry = of->chosen.methods[i];
+        do
+            status = add_case(of, point);
+        while (status == FM_OK && next_point(values, of, point->entry));
+        if (status != FM_OK)
+            break;
+    }
+    point->values = NULL;
+    return status;
+}
+
+static fm_status expand(expansion *of)
+{
+    const fm_text_list *devices = &of->chosen.selection.names[FM_LISTED_DEVICES];
+    const fm_text_list *feeds = &of->chosen.selection.names[FM_LISTED_FEEDS];
+    const size_t scene_count = of->chosen.selection.names[FM_LISTED_SCENES].count;
+    const size_t place_count = scene_count * devices->count * feeds->count;
+    fm_status status = FM_OK;
+    for (size_t i = 0; status == FM_OK && i < place_count; i++) {
+        const fm_chosen_scene *scene = &of->chosen.scenes[i / (devices->count * feeds->count)];
+        fm_plan_point point = {
+            .scene = scene->name,
+            .base = &scene->settings,
+            .device = devices->items[i / feeds->count % devices->count],
+            .feed = feeds->items[i % feeds->count],
+            .selection = &of->chosen.selection,
+            .memo = &of->memo,
+        };
+        status = expand_methods(of, &point);
+    }
+    return status;
+}
+
+/* The keys of the whole run: the same in every case, and the first seed. */
+static void fill_run(fm_plan *plan, const fm_selection *selection)
+{
+    fm_settings settings;
+    settings_default(&settings);
+    for (size_t i = 0; i < selection->sweep_count; i++) {
+        const fm_sweep *sweep = &selection->sweeps[i];
+        if (sweep->key != NULL)
+            settings_set(&settings, sweep->key, sweep->values.items[0], NULL);
+    }
+    plan->seed = settings.seed;
+    plan->launches = settings.launches;
+    plan->frames = settings.frames;
+    plan->warmup = settings.warmup;
+}
+
+static fm_status expand_all(expansion *of)
+{
+    if (count_cases(&of->chosen) > FM_PLAN_MAX_CASES)
+        return fm_fail(of->err, FM_INVALID, "the axes make more than %d cases", FM_PLAN_MAX_CASES);
+    of->ids = calloc(ID_SLOTS, sizeof *of->ids);
+    return of->ids != NULL ? expand(of) : no_memory(of->err);
+}
+
+fm_status plan_expand(fm_plan *plan, const fm_plan_request *request, const fm_plugin_list *plugins,
+                      fm_error *err)
+{
+    fm_error own;
+    expansion of = { .err = err != NULL ? err : &own };
+    *plan = (fm_plan){ 0 };
+    fm_status status = chosen_create(&of.chosen, request, plugins, of.err);
+    if (status == FM_OK)
+        status = expand_all(&of);
+    if (status == FM_OK) {
+        fill_run(plan, &of.chosen.selection);
+        plan->cases = of.cases;
+        plan->count = of.count;
+        of.cases = NULL;
+    }
+    free(of.ids);
+    free(of.cases);
+    chosen_destroy(&of.chosen);
+    return status;
+}
+
+void plan_free(fm_plan *plan)
+{
+    free(plan->cases);
+    *plan = (fm_plan){ 0 };
+}

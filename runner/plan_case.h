@@ -1,0 +1,32 @@
+/* One case of a plan: its settings, why it cannot run, its id. */
+#ifndef FM_PLAN_CASE_H
+#define FM_PLAN_CASE_H
+
+#include "plan.h"
+#include "selection.h"
+
+/* The digest of the mesh met last: cases of one scene follow one another. */
+typedef struct fm_mesh_memo {
+    char path[FM_PATH_MAX_BYTES];
+    uint64_t digest;
+    fm_error error; /* status FM_OK: the digest is known */
+} fm_mesh_memo;
+
+/* Where in the product a case stands. All borrowed. */
+typedef struct fm_plan_point {
+    const fm_plugin_entry *entry;
+    const char *scene, *device, *feed;
+    const fm_settings *base; /* the scene's own */
+    const fm_selection *selection;
+    const size_t *values; /* [sweep_count]: which value of each axis */
+    fm_mesh_memo *memo;   /* starts as {0} */
+} fm_plan_point;
+
+/* FM_INVALID: the point's keys contradict each other. */
+fm_status plan_case_make(fm_case *made, const fm_plan_point *point, fm_error *err);
+
+/* The method's option of that name, or NULL. */
+const fm_option *option_find(const fm_method_desc *method, const char *name);
+bool option_has_value(const fm_option *option, const char *value);
+
+#endif
