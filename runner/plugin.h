@@ -25,11 +25,14 @@ typedef struct fm_plugin_entry {
 typedef struct fm_plugin_list {
     fm_plugin_entry *entries; /* by id */
     size_t count;
-    char common_folder[FM_PATH_MAX_BYTES]; /* GLSL of the runner: .../methods/common */
+    char common_folder[FM_PATH_MAX_BYTES]; /* GLSL of the runner: the first folder
+                                              with common/prelude.glsl; "": none has it */
 } fm_plugin_list;
 
 /* Opens one shared object and checks its descriptor. Messages name plugin, pass and field:
- * "kb.so: pass 'store': reads 'fragmets': no such resource; nearest is 'fragments'". */
+ * "kb.so: pass 'store': reads 'fragmets': no such resource; nearest is 'fragments'".
+ * FM_IO: no such file; FM_INVALID: refused. Strings and hooks of the descriptor are trusted to be
+ * what they say: a plugin is code. */
 fm_status plugin_open(fm_plugin **plugin, const char *path, fm_error *err);
 void plugin_close(fm_plugin *plugin);
 
@@ -39,7 +42,8 @@ fm_status plugin_check(const fm_method_desc *method, const char *name, fm_error 
 /* All plugins of all folders, the first folder winning for an id. Folders, in order: those of
  * --plugin-dir (extra, ending with NULL; may be NULL), FRAGMARK_PLUGIN_PATH (colons), then
  * `methods` beside the executable (build tree) or ../lib/fragmark/methods (install tree).
- * A folder F holds F/ID/ID.so. A plugin that is refused is an entry, not a failure. */
+ * A folder F holds F/ID/ID.so. A plugin that is refused is an entry, not a failure.
+ * FM_IO: a folder that --plugin-dir or FRAGMARK_PLUGIN_PATH names cannot be read. */
 fm_status plugin_list_open(fm_plugin_list *list, const char *const *extra, fm_error *err);
 void plugin_list_close(fm_plugin_list *list);
 const fm_plugin_entry *plugin_list_find(const fm_plugin_list *list, const char *id);

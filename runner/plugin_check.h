@@ -1,0 +1,43 @@
+/* The parts of plugin_check: each checks one list of a descriptor, once. Messages start with the
+ * field; callers put plugin and pass before them. */
+#ifndef FM_PLUGIN_CHECK_H
+#define FM_PLUGIN_CHECK_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "error.h"
+#include "fragmark/method.h"
+
+/* A descriptor whose lists were counted: nothing after that looks for their ends. */
+typedef struct fm_check {
+    const fm_method_desc *method;
+    size_t option_count, resource_count, total_count, pass_count;
+    const char *resources[FM_MAX_RESOURCES]; /* names, for the nearest */
+    const char *totals[FM_MAX_TOTALS];
+    const char *passes[FM_MAX_PASSES];
+} fm_check;
+
+fm_status check_options(const fm_check *check, fm_error *err);
+fm_status check_resources(const fm_check *check, fm_error *err);
+fm_status check_totals(const fm_check *check, fm_error *err);
+fm_status check_passes(const fm_check *check, fm_error *err);
+fm_status check_loops(const fm_check *check, fm_error *err);
+
+/* Length of a list that ends at the first NULL name; the i-th name lies i * stride_bytes behind
+ * first. FM_INVALID: a name stands behind the end, or one is empty or twice there. */
+fm_status check_list(size_t *count, const char *const *first, size_t stride_bytes, size_t room,
+                     const char *list, fm_error *err);
+/* Index of word in names; FM_INVALID: none, with the nearest. what: "resource". */
+fm_status check_known(size_t *index, const char *word, const char *const *names, size_t count,
+                      const char *field, const char *what, fm_error *err);
+fm_status check_range(unsigned value, unsigned count, const char *field, fm_error *err);
+/* [a-z] first, then [a-z0-9] and the characters of `others`. */
+bool check_is_word(const char *name, const char *others);
+/* gl_*, fm_*, a__b: names, and in upper case macros, that GLSL or the runner owns. */
+bool check_is_taken(const char *name);
+/* Those, and words as buffer or main: no name of a variable or function. */
+bool check_is_reserved(const char *name);
+bool check_is_depth_format(fm_format format);
+
+#endif

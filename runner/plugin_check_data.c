@@ -1,0 +1,292 @@
+/* Options, resources and totals of a descriptor. */
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "plugin_check.h"
+#include "settings.h"
+#include "text.h"
+
+enum { DEFINE_MAX_BYTES = 64, MAX_IMAGE_LAYERS = 2048, MAX_IMAGE_SAMPLES = 16 };
+static const uint64_t max_extent = UINT64_C(1) << 40;
+
+static bool is_numeric(const fm_option *option, size_t value_count)
+{
+    double number;
+    for (size_t i = 0; i < value_count; i++)
+        if (!text_to_double(&number, option->values[i]))
+            return false;
+    return true;
+}
+
+/* A value of letters becomes the end of a macro's name; a number does not. */
+static fm_status check_value(const char *value, bool is_number, fm_error *err)
+{
+    char word[DEFINE_MAX_BYTES];
+    const int length = snprintf(word, sizeof word, "v%s", value);
+    if (length >= (int)sizeof word)
+        return fm_fail(err, FM_INVALID, "value '%s': too long", value);
+    if (!is_number && !check_is_word(word, "_-"))
+        return fm_fail(err, FM_INVALID, "value '%s': needs lower-case letters, digits, '-' and '_'",
+                       value);
+    return FM_OK;
+}
+
+/* Adds NAME or NAME_VALUE as GLSL sees it; FM_INVALID: it is another's macro too. */
+static fm_status add_define(char defines[][2 * DEFINE_MAX_BYTES], size_t *count, const char *name,
+                            const char *value, fm_error *err)
+{
+    char *define = defines[*count];
+    snprintf(define, 2 * DEFINE_MAX_BYTES, "%s%s%s", name, *value == '\0' ? "" : "_", value);
+    for (char *c = define; *c != '\0'; c++)
+        *c = *c == '-' ? '_' : *c;
+    if (check_is_taken(define) || strcmp(define, "k") == 0 || strcmp(define, "n") == 0)
+        return fm_fail(err, FM_INVALID, "its macro would be '%s', which is reserved", define);
+    for (size_t i = 0; i < *count; i++)
+        if (strcmp(define, defines[i]) == 0)
+            return fm_fail(err, FM_INVALID, "its macro '%s' is there already", define);
+    ++*count;
+    return FM_OK;
+}
+
+static fm_status check_option(const fm_option *option, char defines[][2 * DEFINE_MAX_BYTES],
+                              size_t *define_count, fm_error *err)
+{
+    size_t value_count;
+    if (!check_is_word(option->name, "_-") || strlen(option->name) >= DEFINE_MAX_BYTES)
+        return fm_fail(err, FM_INVALID, "needs lower-case letters, digits, '-' and '_'");
+    if (key_find(option->name) != NULL)
+        return fm_fail(err, FM_INVALID, "the runner has a key of this name");
+    fm_status status = check_list(&value_count, option->values, sizeof option->values[0],
+                                  FM_MAX_OPTION_VALUES, "values", err);
+    if (status != FM_OK)
+        return status;
+    if (value_count == 0)
+        return fm_fail(err, FM_INVALID, "values: none");
+    const bool is_number = is_numeric(option, value_count);
+    status = add_define(defines, define_count, option->name, "", err);
+    for (size_t i = 0; i < value_count && status == FM_OK; i++) {
+        status = check_value(option->values[i], is_number, err);
+        if (status == FM_OK && !is_number)
+            status = add_define(defines, define_count, option->name, option->values[i], err);
+    }
+    return status;
+}
+
+fm_status check_options(const fm_check *check, fm_error *err)
+{
+    char defines[FM_MAX_OPTIONS * (FM_MAX_OPTION_VALUES + 1)][2 * DEFINE_MAX_BYTES];
+    size_t define_count = 0;
+    for (size_t i = 0; i < check->option_count; i++) {
+        const fm_option *option = &check->method->options[i];
+        if (check_option(option, defines, &define_count, err) != FM_OK)
+            return fm_error_prefix(err, "option '%s'", option->name);
+    }
+    return FM_OK;
+}
+
+/* The option that per_option multiplies by: whole numbers only. */
+static fm_status check_counting_option(const fm_check *check, const char *name, fm_error *err)
+{
+    const char *names[FM_MAX_OPTIONS];
+    size_t index;
+    uint64_t number;
+    for (size_t i = 0; i < check->option_count; i++)
+        names[i] = check->method->options[i].name;
+    const fm_status status =
+        check_known(&index, name, names, check->option_count, "extent.option", "option", err);
+    if (status != FM_OK)
+        return status;
+    const fm_option *option = &check->method->options[index];
+    for (size_t i = 0; i < FM_MAX_OPTION_VALUES && option->values[i] != NULL; i++)
+        if (!text_to_u64(&number, option->values[i]))
+            return fm_fail(err, FM_INVALID, "extent.option '%s': its value '%s' is no whole number",
+                           name, option->values[i]);
+    return FM_OK;
+}
+
+static fm_status check_term(uint64_t factor, const char *name, const char *factor_field,
+                            const char *name_field, fm_error *err)
+{
+    if (factor > 0 && name == NULL)
+        return fm_fail(err, FM_INVALID, "extent.%s: needs extent.%s", factor_field, name_field);
+    if (factor == 0 && name != NULL)
+        return fm_fail(err, FM_INVALID, "extent.%s: needs extent.%s", name_field, factor_field);
+    return FM_OK;
+}
+
+static fm_status check_extent(const fm_check *check, const fm_extent *e, fm_error *err)
+{
+    const uint64_t terms[] = { e->constant, e->per_pixel,    e->per_pixel_k, e->per_pixel_n,
+                               e->per_tile, e->per_triangle, e->per_total,   e->per_option };
+    bool is_zero = true;
+    for (size_t i = 0; i < sizeof terms / sizeof terms[0]; i++) {
+        is_zero = is_zero && terms[i] == 0;
+        if (terms[i] > max_extent)
+            return fm_fail(err, FM_INVALID, "extent: a term of %" PRIu64 ", %" PRIu64 " at most",
+                           terms[i], max_extent);
+    }
+    if (is_zero)
+        return fm_fail(err, FM_INVALID, "extent: all terms are zero: a zero-sized buffer");
+    fm_status status = check_term(e->per_total, e->total, "per_total", "total", err);
+    if (status == FM_OK)
+        status = check_term(e->per_option, e->option, "per_option", "option", err);
+    if (status == FM_OK && e->total != NULL) {
+        size_t index;
+        status = check_known(&index, e->total, check->totals, check->total_count, "extent.total",
+                             "total", err);
+    }
+    if (status == FM_OK && e->option != NULL)
+        status = check_counting_option(check, e->option, err);
+    return status;
+}
+
+static fm_status check_sizing(const fm_check *check, const fm_resource *r, fm_error *err)
+{
+    size_t index;
+    const fm_status status = check_range(r->sizing, FM_SIZE_COUNT, "sizing", err);
+    if (status != FM_OK)
+        return status;
+    if (r->sizing == FM_SIZE_AFTER_TOTAL && r->extent.total == NULL)
+        return fm_fail(err, FM_INVALID, "sizing after a total: needs extent.total");
+    if (r->sizing != FM_SIZE_AFTER_TOTAL && r->extent.total != NULL)
+        return fm_fail(err, FM_INVALID,
+                       "extent.total '%s' is known only after a pass: needs FM_SIZE_AFTER_TOTAL",
+                       r->extent.total);
+    if (r->sizing == FM_SIZE_GROW && r->overflow == NULL)
+        return fm_fail(err, FM_INVALID, "sizing that grows: needs overflow, a total");
+    if (r->sizing != FM_SIZE_GROW && r->overflow != NULL)
+        return fm_fail(err, FM_INVALID, "overflow: only with FM_SIZE_GROW");
+    if (r->overflow == NULL)
+        return FM_OK;
+    return check_known(&index, r->overflow, check->totals, check->total_count, "overflow", "total",
+                       err);
+}
+
+static fm_status check_buffer(const fm_check *check, const fm_resource *r, fm_error *err)
+{
+    fm_status status = check_range(r->element, FM_ELEMENT_COUNT, "element", err);
+    if (status != FM_OK)
+        return status;
+    if (r->format != FM_FORMAT_NONE || r->samples != 0 || r->layers != 0 || r->layers_per_k != 0)
+        return fm_fail(err, FM_INVALID, "a buffer has no format, samples or layers");
+    if (r->element == FM_ELEMENT_UINT64 && !(check->method->features & FM_FEATURE_INT64_ATOMICS))
+        return fm_fail(err, FM_INVALID, "element: 64-bit needs FM_FEATURE_INT64_ATOMICS");
+    status = check_extent(check, &r->extent, err);
+    return status == FM_OK ? check_sizing(check, r, err) : status;
+}
+
+static fm_status check_image(const fm_resource *r, fm_error *err)
+{
+    const fm_extent none = { 0 };
+    const fm_status status = check_range(r->format, FM_FORMAT_COUNT, "format", err);
+    if (status != FM_OK)
+        return status;
+    if (r->format == FM_FORMAT_NONE)
+        return fm_fail(err, FM_INVALID, "format: missing");
+    if (memcmp(&r->extent, &none, sizeof none) != 0 || r->sizing != FM_SIZE_FIXED ||
+        r->overflow != NULL || r->element != FM_ELEMENT_UINT)
+        return fm_fail(err, FM_INVALID,
+                       "an image has the viewport's size: no element, extent, sizing or overflow");
+    if ((r->samples & (r->samples - 1)) != 0 || r->samples > MAX_IMAGE_SAMPLES)
+        return fm_fail(err, FM_INVALID, "samples: %" PRIu32 ": a power of two, %d at most",
+                       r->samples, MAX_IMAGE_SAMPLES);
+    if (r->layers > MAX_IMAGE_LAYERS || r->layers_per_k > MAX_IMAGE_LAYERS)
+        return fm_fail(err, FM_INVALID, "layers: %d at most", MAX_IMAGE_LAYERS);
+    if (!(r->clear_depth >= 0.0f && r->clear_depth <= 1.0f))
+        return fm_fail(err, FM_INVALID, "clear_depth: from 0 to 1");
+    if (r->clear_stencil > UINT8_MAX)
+        return fm_fail(err, FM_INVALID, "clear_stencil: 255 at most");
+    return FM_OK;
+}
+
+static fm_status check_resource_name(const fm_check *check, const char *name, fm_error *err)
+{
+    const size_t length = strlen(name);
+    if (!check_is_word(name, "_"))
+        return fm_fail(err, FM_INVALID, "needs lower-case letters, digits and '_'");
+    if (check_is_reserved(name) || strcmp(name, "store") == 0 || strcmp(name, "wanted") == 0)
+        return fm_fail(err, FM_INVALID, "a word that GLSL or the runner reserves");
+    for (size_t i = 0; i < check->resource_count; i++) {
+        const char *other = check->resources[i];
+        const size_t other_length = strlen(other);
+        if (check->method->resources[i].ping_pong && length > other_length &&
+            strncmp(name, other, other_length) == 0 &&
+            strcmp(name + other_length, "_previous") == 0)
+            return fm_fail(err, FM_INVALID, "this is the other copy of '%s'", other);
+    }
+    return FM_OK;
+}
+
+static fm_status check_resource(const fm_check *check, const fm_resource *r, fm_error *err)
+{
+    fm_status status = check_resource_name(check, r->name, err);
+    if (status == FM_OK)
+        status = check_range(r->kind, FM_RESOURCE_KIND_COUNT, "kind", err);
+    if (status != FM_OK)
+        return status;
+    return r->kind == FM_RESOURCE_BUFFER ? check_buffer(check, r, err) : check_image(r, err);
+}
+
+fm_status check_resources(const fm_check *check, fm_error *err)
+{
+    for (size_t i = 0; i < check->resource_count; i++) {
+        const fm_resource *r = &check->method->resources[i];
+        if (check_resource(check, r, err) != FM_OK)
+            return fm_error_prefix(err, "resource '%s'", r->name);
+    }
+    return FM_OK;
+}
+
+/* A total that is read from a buffer. */
+static fm_status check_source(const fm_check *check, const fm_total *total, fm_error *err)
+{
+    size_t index;
+    const fm_status status = check_known(&index, total->resource, check->resources,
+                                         check->resource_count, "resource", "resource", err);
+    if (status != FM_OK)
+        return status;
+    const fm_resource *r = &check->method->resources[index];
+    if (r->kind != FM_RESOURCE_BUFFER || r->element != FM_ELEMENT_UINT)
+        return fm_fail(err, FM_INVALID, "resource '%s': needs a buffer of FM_ELEMENT_UINT",
+                       total->resource);
+    if (total->sum && total->index != 0)
+        return fm_fail(err, FM_INVALID, "index: not with sum");
+    const fm_extent only_constant = { .constant = r->extent.constant };
+    if (memcmp(&r->extent, &only_constant, sizeof only_constant) == 0 &&
+        total->index >= r->extent.constant)
+        return fm_fail(err, FM_INVALID, "index: %" PRIu64 ": '%s' has %" PRIu64 " elements",
+                       total->index, total->resource, r->extent.constant);
+    return FM_OK;
+}
+
+static fm_status check_total(const fm_check *check, const fm_total *total, fm_error *err)
+{
+    size_t index;
+    if (!check_is_word(total->name, "_-"))
+        return fm_fail(err, FM_INVALID, "needs lower-case letters, digits, '-' and '_'");
+    if (total->pass == NULL)
+        return fm_fail(err, FM_INVALID, "pass: missing: after which pass it is read");
+    const fm_status status =
+        check_known(&index, total->pass, check->passes, check->pass_count, "pass", "pass", err);
+    if (status != FM_OK)
+        return status;
+    if (total->resource != NULL)
+        return check_source(check, total, err);
+    if (total->sum || total->index != 0)
+        return fm_fail(err, FM_INVALID, "sum, index: need resource");
+    if (check->method->passes[index].kind != FM_PASS_SCENE)
+        return fm_fail(
+            err, FM_INVALID,
+            "pass '%s': samples are counted in scene passes only, and resource is not set",
+            total->pass);
+    return FM_OK;
+}
+
+fm_status check_totals(const fm_check *check, fm_error *err)
+{
+    for (size_t i = 0; i < check->total_count; i++)
+        if (check_total(check, &check->method->totals[i], err) != FM_OK)
+            return fm_error_prefix(err, "total '%s'", check->totals[i]);
+    return FM_OK;
+}

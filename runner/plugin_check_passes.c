@@ -1,0 +1,324 @@
+/* Passes and loops of a descriptor. */
+#include <inttypes.h>
+#include <string.h>
+
+#include "plugin_check.h"
+
+enum { NAME_MAX_BYTES = 64, MAX_STENCIL = 255 };
+
+/* What a kind of pass may have. */
+typedef struct kind_rule {
+    const char *name;
+    bool has_shader, has_targets;
+} kind_rule;
+
+static const kind_rule kind_rules[] = {
+    [FM_PASS_SCENE] = { "scene", true, true },   [FM_PASS_PIXELS] = { "pixels", true, true },
+    [FM_PASS_TILES] = { "tiles", true, false },  [FM_PASS_TRIANGLES] = { "triangles", true, false },
+    [FM_PASS_TOTAL] = { "total", true, false },  [FM_PASS_INDIRECT] = { "indirect", true, false },
+    [FM_PASS_CLEAR] = { "clear", false, false }, [FM_PASS_HOST] = { "host", false, false },
+};
+_Static_assert(sizeof kind_rules / sizeof kind_rules[0] == FM_PASS_KIND_COUNT, "one rule a kind");
+
+/* A pass that is not a scene pass defines a function of its name beside the resources. */
+static fm_status check_pass_name(const fm_check *check, const fm_pass *pass, fm_error *err)
+{
+    char function[NAME_MAX_BYTES];
+    const size_t length = strlen(pass->name);
+    if (!check_is_word(pass->name, "-") || length >= sizeof function)
+        return fm_fail(err, FM_INVALID, "name: needs lower-case letters, digits and hyphens");
+    if (!kind_rules[pass->kind].has_shader || pass->kind == FM_PASS_SCENE)
+        return FM_OK;
+    for (size_t i = 0; i <= length; i++)
+        function[i] = pass->name[i];
+    for (size_t i = 0; i < length; i++)
+        function[i] = function[i] == '-' ? '_' : function[i];
+    if (check_is_reserved(function))
+        return fm_fail(err, FM_INVALID, "name: its function '%s' is a reserved word", function);
+    for (size_t i = 0; i < check->resource_count; i++)
+        if (strcmp(function, check->resources[i]) == 0)
+            return fm_fail(err, FM_INVALID, "name: its function '%s' is a resource's name too",
+                           function);
+    return FM_OK;
+}
+
+static bool is_file_name(const char *name, size_t length)
+{
+    static const char legal[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.";
+    return length > 0 && name[0] != '.' && strspn(name, legal) >= length;
+}
+
+static fm_status check_shader(const fm_pass *pass, fm_error *err)
+{
+    static const char suffix[] = ".glsl";
+    const kind_rule *rule = &kind_rules[pass->kind];
+    if (!rule->has_shader && pass->shader != NULL)
+        return fm_fail(err, FM_INVALID, "shader '%s': a pass of kind %s has none", pass->shader,
+                       rule->name);
+    if (!rule->has_shader)
+        return FM_OK;
+    if (pass->shader == NULL || *pass->shader == '\0')
+        return fm_fail(err, FM_INVALID, "shader: missing: a pass of kind %s needs one", rule->name);
+    const char *slash = strchr(pass->shader, '/');
+    const char *file = slash == NULL ? pass->shader : slash + 1;
+    const size_t length = strlen(file), suffix_length = sizeof suffix - 1;
+    if ((slash != NULL && !is_file_name(pass->shader, (size_t)(slash - pass->shader))) ||
+        !is_file_name(file, length) || length <= suffix_length ||
+        strcmp(file + length - suffix_length, suffix) != 0)
+        return fm_fail(err, FM_INVALID, "shader '%s': needs 'file.glsl' or 'METHOD/file.glsl'",
+                       pass->shader);
+    return FM_OK;
+}
+
+static const fm_resource *find_resource(const fm_check *check, const char *name)
+{
+    for (size_t i = 0; i < check->resource_count; i++)
+        if (strcmp(name, check->resources[i]) == 0)
+            return &check->method->resources[i];
+    return NULL;
+}
+
+/* The resource that `name` ("fragments_previous") is the other copy of, whether it has two or not.
+ */
+static const fm_resource *find_previous(const fm_check *check, const char *name)
+{
+    for (size_t i = 0; i < check->resource_count; i++) {
+        const size_t length = strlen(check->resources[i]);
+        if (strncmp(name, check->resources[i], length) == 0 &&
+            strcmp(name + length, "_previous") == 0)
+            return &check->method->resources[i];
+    }
+    return NULL;
+}
+
+static fm_status check_access(const fm_check *check, const char *name, const char *field,
+                              bool may_be_previous, fm_error *err)
+{
+    size_t index;
+    if (find_resource(check, name) != NULL)
+        return FM_OK;
+    const fm_resource *previous = find_previous(check, name);
+    if (previous != NULL && !previous->ping_pong)
+        return fm_fail(err, FM_INVALID, "%s '%s': '%s' has one copy: ping_pong is not set", field,
+                       name, previous->name);
+    if (previous != NULL && !may_be_previous)
+        return fm_fail(err, FM_INVALID, "%s '%s': the previous copy can only be read", field, name);
+    if (previous != NULL)
+        return FM_OK;
+    return check_known(&index, name, check->resources, check->resource_count, field, "resource",
+                       err);
+}
+
+static fm_status check_accesses(const fm_check *check, const fm_pass *pass, fm_error *err)
+{
+    size_t read_count, write_count;
+    fm_status status =
+        check_list(&read_count, pass->reads, sizeof pass->reads[0], FM_MAX_ACCESSES, "reads", err);
+    if (status == FM_OK)
+        status = check_list(&write_count, pass->writes, sizeof pass->writes[0], FM_MAX_ACCESSES,
+                            "writes", err);
+    for (size_t i = 0; status == FM_OK && i < read_count; i++)
+        status = check_access(check, pass->reads[i], "reads", true, err);
+    for (size_t i = 0; status == FM_OK && i < write_count; i++)
+        status = check_access(check, pass->writes[i], "writes", false, err);
+    if (status != FM_OK)
+        return status;
+    if (pass->kind == FM_PASS_CLEAR && (write_count == 0 || read_count > 0))
+        return fm_fail(err, FM_INVALID, "a clear has writes and no reads");
+    if (pass->kind == FM_PASS_HOST && (write_count > 0 || read_count > 0))
+        return fm_fail(err, FM_INVALID,
+                       "a pass of kind host has no reads or writes: it reads totals");
+    if (pass->clear_word != 0 && pass->kind != FM_PASS_CLEAR)
+        return fm_fail(err, FM_INVALID, "clear_word: only a clear has it");
+    return FM_OK;
+}
+
+/* FM_INVALID unless name is an image of the wanted kind. */
+static fm_status check_attachment(const fm_resource **image, const fm_check *check,
+                                  const char *name, bool wants_depth, const char *field,
+                                  fm_error *err)
+{
+    size_t index;
+    const fm_status status =
+        check_known(&index, name, check->resources, check->resource_count, field, "resource", err);
+    if (status != FM_OK)
+        return status;
+    *image = &check->method->resources[index];
+    if ((*image)->kind != FM_RESOURCE_IMAGE)
+        return fm_fail(err, FM_INVALID, "%s '%s': is a buffer, not an image", field, name);
+    if (check_is_depth_format((*image)->format) != wants_depth)
+        return fm_fail(err, FM_INVALID, "%s '%s': needs a %s format", field, name,
+                       wants_depth ? "depth" : "colour");
+    return FM_OK;
+}
+
+static bool is_integer_format(fm_format format)
+{
+    return format == FM_FORMAT_R32UI || format == FM_FORMAT_RG32UI || format == FM_FORMAT_RGBA32UI;
+}
+
+static uint32_t sample_count(const fm_resource *image)
+{
+    return image->samples == 0 ? 1 : image->samples;
+}
+
+/* *samples is 0 before the first attachment. */
+static fm_status check_samples(uint32_t *samples, const fm_resource *image, fm_error *err)
+{
+    if (*samples != 0 && *samples != sample_count(image))
+        return fm_fail(err, FM_INVALID,
+                       "target '%s': %" PRIu32 " samples, the others have %" PRIu32, image->name,
+                       sample_count(image), *samples);
+    *samples = sample_count(image);
+    return FM_OK;
+}
+
+static fm_status check_target(const fm_check *check, const fm_target *target, uint32_t *samples,
+                              fm_error *err)
+{
+    const fm_resource *image = NULL;
+    fm_status status = check_attachment(&image, check, target->resource, false, "target", err);
+    if (status == FM_OK)
+        status = check_range(target->load, FM_LOAD_COUNT, "target load", err);
+    if (status == FM_OK)
+        status = check_range(target->blend, FM_BLEND_COUNT, "target blend", err);
+    if (status != FM_OK)
+        return status;
+    if (target->blend != FM_BLEND_OFF && is_integer_format(image->format))
+        return fm_fail(err, FM_INVALID, "target '%s': integer formats do not blend",
+                       target->resource);
+    return check_samples(samples, image, err);
+}
+
+static fm_status check_targets(const fm_check *check, const fm_pass *pass, uint32_t *samples,
+                               fm_error *err)
+{
+    size_t count;
+    fm_status status = check_list(&count, &pass->targets[0].resource, sizeof pass->targets[0],
+                                  FM_MAX_TARGETS, "targets", err);
+    if (status == FM_OK && count > 0 && !kind_rules[pass->kind].has_targets)
+        return fm_fail(err, FM_INVALID, "targets: a pass of kind %s has none",
+                       kind_rules[pass->kind].name);
+    for (size_t i = 0; status == FM_OK && i < count; i++)
+        status = check_target(check, &pass->targets[i], samples, err);
+    return status;
+}
+
+static fm_status check_state_ranges(const fm_state *s, fm_error *err)
+{
+    fm_status status = check_range(s->depth_stencil_load, FM_LOAD_COUNT, "depth_stencil_load", err);
+    if (status == FM_OK)
+        status = check_range(s->depth_test, FM_COMPARE_COUNT, "depth_test", err);
+    if (status == FM_OK)
+        status = check_range(s->stencil_test, FM_COMPARE_COUNT, "stencil_test", err);
+    if (status == FM_OK)
+        status = check_range(s->stencil_fail, FM_STENCIL_OP_COUNT, "stencil_fail", err);
+    if (status == FM_OK)
+        status = check_range(s->stencil_depth_fail, FM_STENCIL_OP_COUNT, "stencil_depth_fail", err);
+    if (status == FM_OK)
+        status = check_range(s->stencil_pass, FM_STENCIL_OP_COUNT, "stencil_pass", err);
+    if (status == FM_OK)
+        status = check_range(s->stencil_reference, MAX_STENCIL + 1, "stencil_reference", err);
+    return status;
+}
+
+static fm_status check_state(const fm_check *check, const fm_pass *pass, uint32_t *samples,
+                             fm_error *err)
+{
+    const fm_state *s = &pass->state;
+    const fm_resource *image = NULL;
+    fm_status status = check_state_ranges(s, err);
+    if (status != FM_OK)
+        return status;
+    if (s->depth_write && s->depth_test == FM_COMPARE_OFF)
+        return fm_fail(err, FM_INVALID,
+                       "depth_write: needs depth_test, FM_COMPARE_ALWAYS at least");
+    if (s->depth_stencil == NULL) {
+        if (s->depth_test != FM_COMPARE_OFF || s->stencil_test != FM_COMPARE_OFF)
+            return fm_fail(err, FM_INVALID, "depth_test, stencil_test: need depth_stencil");
+        return FM_OK;
+    }
+    if (!kind_rules[pass->kind].has_targets)
+        return fm_fail(err, FM_INVALID, "depth_stencil: a pass of kind %s has none",
+                       kind_rules[pass->kind].name);
+    status = check_attachment(&image, check, s->depth_stencil, true, "depth_stencil", err);
+    if (status != FM_OK)
+        return status;
+    if (s->stencil_test != FM_COMPARE_OFF && image->format != FM_FORMAT_D32F_S8)
+        return fm_fail(err, FM_INVALID, "stencil_test: '%s' needs FM_FORMAT_D32F_S8",
+                       s->depth_stencil);
+    return check_samples(samples, image, err);
+}
+
+static fm_status check_flags(const fm_pass *pass, fm_error *err)
+{
+    if (pass->exclusive && pass->kind != FM_PASS_SCENE)
+        return fm_fail(err, FM_INVALID, "exclusive: only scene passes can be");
+    if (pass->flat_tessellation && pass->kind != FM_PASS_SCENE)
+        return fm_fail(err, FM_INVALID, "flat_tessellation: only scene passes can have it");
+    if (pass->emits && !kind_rules[pass->kind].has_shader)
+        return fm_fail(err, FM_INVALID, "emits: a pass of kind %s cannot",
+                       kind_rules[pass->kind].name);
+    return FM_OK;
+}
+
+/* count_total and indirect: needed by one kind, forbidden to the others. */
+static fm_status check_counts(const fm_check *check, const fm_pass *pass, fm_error *err)
+{
+    size_t index;
+    if ((pass->kind == FM_PASS_TOTAL) != (pass->count_total != NULL))
+        return fm_fail(err, FM_INVALID, "count_total: needed by kind total, and by no other");
+    if ((pass->kind == FM_PASS_INDIRECT) != (pass->indirect != NULL))
+        return fm_fail(err, FM_INVALID, "indirect: needed by kind indirect, and by no other");
+    if (pass->count_total != NULL)
+        return check_known(&index, pass->count_total, check->totals, check->total_count,
+                           "count_total", "total", err);
+    if (pass->indirect == NULL)
+        return FM_OK;
+    const fm_status status = check_known(&index, pass->indirect, check->resources,
+                                         check->resource_count, "indirect", "resource", err);
+    if (status != FM_OK)
+        return status;
+    const fm_resource *r = &check->method->resources[index];
+    if (r->kind != FM_RESOURCE_BUFFER || r->element != FM_ELEMENT_UINT)
+        return fm_fail(err, FM_INVALID, "indirect '%s': needs a buffer of FM_ELEMENT_UINT",
+                       pass->indirect);
+    return FM_OK;
+}
+
+static fm_status check_pass(const fm_check *check, const fm_pass *pass, fm_error *err)
+{
+    uint32_t samples = 0;
+    fm_status status = check_range(pass->kind, FM_PASS_KIND_COUNT, "kind", err);
+    if (status == FM_OK)
+        status = check_pass_name(check, pass, err);
+    if (status == FM_OK)
+        status = check_shader(pass, err);
+    if (status == FM_OK)
+        status = check_accesses(check, pass, err);
+    if (status == FM_OK)
+        status = check_targets(check, pass, &samples, err);
+    if (status == FM_OK)
+        status = check_state(check, pass, &samples, err);
+    if (status == FM_OK)
+        status = check_flags(pass, err);
+    if (status == FM_OK)
+        status = check_counts(check, pass, err);
+    return status;
+}
+
+fm_status check_passes(const fm_check *check, fm_error *err)
+{
+    bool emits = false;
+    if (check->pass_count == 0)
+        return fm_fail(err, FM_INVALID, "passes: none");
+    for (size_t i = 0; i < check->pass_count; i++) {
+        const fm_pass *pass = &check->method->passes[i];
+        if (check_pass(check, pass, err) != FM_OK)
+            return fm_error_prefix(err, "pass '%s'", pass->name);
+        emits = emits || pass->emits;
+    }
+    if (!emits && !(check->method->traits & FM_TRAIT_FLOOR))
+        return fm_fail(err, FM_INVALID, "passes: none emits");
+    return FM_OK;
+}
