@@ -51,6 +51,22 @@ static void osmesa_draws_without_targets_in_vulkan_coordinates(void **state)
     device->ops->close(device);
 }
 
+static const char route_source[] = "#version 450\n"
+                                   "layout(location = 0) flat in int instance;\n"
+                                   "layout(location = 0) out vec4 target;\n"
+                                   "void main() { target = vec4(float(instance) + 1.0); }\n";
+
+static const char read_samples_source[] = "#version 450\n"
+                                          "layout(local_size_x = 4) in;\n"
+                                          "layout(binding = 0) uniform sampler2DMS slots;\n"
+                                          "layout(binding = 1) buffer Out { float o[]; };\n"
+                                          "void main() {\n"
+                                          "  ivec2 p = ivec2(gl_WorkGroupID.xy);\n"
+                                          "  int s = int(gl_LocalInvocationID.x);\n"
+                                          "  o[(p.y * 16 + p.x) * 4 + s] =\n"
+                                          "    texelFetch(slots, p, s).x;\n"
+                                          "}\n";
+
 /* Stencil routing (Bavoil and Myers 2008): sample i starts at 2 + i, each fragment passes where the
  * stencil is 2 and decrements all, so the i-th arriving fragment lands in sample i. */
 static void osmesa_routes_fragments_to_samples_by_stencil(void **state)
@@ -76,31 +92,17 @@ static void osmesa_routes_fragments_to_samples_by_stencil(void **state)
         .samples = SAMPLES,
     };
     fm_pipeline *store = make_pipeline(
-        device,
-        (fm_pipeline_desc){ .fragment = "#version 450\n"
-                                        "layout(location = 0) flat in int instance;\n"
-                                        "layout(location = 0) out vec4 target;\n"
-                                        "void main() { target = vec4(float(instance) + 1.0); }\n",
-                            .state = { .stencil_test = FM_COMPARE_EQUAL,
-                                       .stencil_fail = FM_STENCIL_DECREMENT,
-                                       .stencil_depth_fail = FM_STENCIL_DECREMENT,
-                                       .stencil_pass = FM_STENCIL_DECREMENT,
-                                       .stencil_reference = 2 },
-                            .targets = { { .format = FM_FORMAT_RG32F } },
-                            .target_count = 1,
-                            .depth_stencil = FM_FORMAT_D32F_S8,
-                            .samples = SAMPLES });
-    fm_pipeline *copy = make_pipeline(
-        device, (fm_pipeline_desc){ .compute = "#version 450\n"
-                                               "layout(local_size_x = 4) in;\n"
-                                               "layout(binding = 0) uniform sampler2DMS slots;\n"
-                                               "layout(binding = 1) buffer Out { float o[]; };\n"
-                                               "void main() {\n"
-                                               "  ivec2 p = ivec2(gl_WorkGroupID.xy);\n"
-                                               "  int s = int(gl_LocalInvocationID.x);\n"
-                                               "  o[(p.y * 16 + p.x) * 4 + s] =\n"
-                                               "    texelFetch(slots, p, s).x;\n"
-                                               "}\n" });
+        device, (fm_pipeline_desc){ .fragment = route_source,
+                                    .state = { .stencil_test = FM_COMPARE_EQUAL,
+                                               .stencil_fail = FM_STENCIL_DECREMENT,
+                                               .stencil_depth_fail = FM_STENCIL_DECREMENT,
+                                               .stencil_pass = FM_STENCIL_DECREMENT,
+                                               .stencil_reference = 2 },
+                                    .targets = { { .format = FM_FORMAT_RG32F } },
+                                    .target_count = 1,
+                                    .depth_stencil = FM_FORMAT_D32F_S8,
+                                    .samples = SAMPLES });
+    fm_pipeline *copy = make_pipeline(device, (fm_pipeline_desc){ .compute = read_samples_source });
     fm_draw command = { .width_px = SIDE_PX,
                         .height_px = SIDE_PX,
                         .vertex_count = 3,

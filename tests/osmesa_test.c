@@ -372,6 +372,7 @@ static void osmesa_is_one_device_and_says_what_it_can(void **state)
     assert_true((device->caps.colour_samples & 1u << 4) != 0);
     assert_true((device->caps.depth_samples & 1u << 4) != 0);
     assert_int_equal(device->caps.features & FM_FEATURE_BUFFER_ADDRESS, 0);
+    assert_true(device->caps.subgroup_size >= 4); /* llvmpipe needs 128-bit vectors */
     assert_true(device->caps.storage_range_bytes >= 128u << 20);
     device->ops->close(device);
 }

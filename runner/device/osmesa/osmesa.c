@@ -49,7 +49,6 @@ static uint32_t find_features(const fm_gl *gl)
         { "GL_ARB_shader_stencil_export", FM_FEATURE_STENCIL_EXPORT },
         { "GL_ARB_fragment_shader_interlock", FM_FEATURE_INTERLOCK },
         { "GL_ARB_shader_ballot", FM_FEATURE_SUBGROUP_BALLOT },
-        { "GL_NV_shader_atomic_int64", FM_FEATURE_INT64_ATOMICS },
     };
     uint32_t features = 0;
     const GLuint count = (GLuint)get_integer(gl, GL_NUM_EXTENSIONS);
@@ -102,6 +101,17 @@ static void find_limits(osmesa_limits *limits, const fm_gl *gl)
     };
 }
 
+/* llvmpipe runs one invocation in each 32-bit lane of its vectors, and OpenGL has no query for it:
+ * "llvmpipe (LLVM 15.0.6, 256 bits)". 0: another renderer. */
+static uint32_t find_subgroup_size(const char *renderer)
+{
+    unsigned bits = 0;
+    const char *comma = strrchr(renderer, ',');
+    if (comma == NULL || sscanf(comma, ", %u bits", &bits) != 1)
+        return 0;
+    return bits / 32;
+}
+
 static void find_caps(fm_device_caps *caps, const fm_gl *gl)
 {
     GLint64 storage_bytes = 0;
@@ -116,6 +126,7 @@ static void find_caps(fm_device_caps *caps, const fm_gl *gl)
         .needs_helper_guard = false,
         .needs_lock_barriers = false,
         .loop_limit = LLVMPIPE_LOOP_LIMIT,
+        .subgroup_size = find_subgroup_size((const char *)gl->GetString(GL_RENDERER)),
         .colour_samples = find_samples(gl, FM_FORMAT_R32UI, FM_FORMAT_RGBA8),
         .depth_samples = find_samples(gl, FM_FORMAT_D32F, FM_FORMAT_D32F_S8),
         .max_targets = draw_buffers < FM_MAX_TARGETS ? draw_buffers : FM_MAX_TARGETS,

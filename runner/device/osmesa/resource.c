@@ -47,6 +47,19 @@ static fm_status check_buffer(const osmesa *self, const fm_buffer_desc *desc, fm
     return FM_OK;
 }
 
+/* What came of asking OpenGL for the storage of "buffer" or "image" NAME. */
+static fm_status check_storage(const fm_gl *gl, const char *kind, const char *name, uint64_t bytes,
+                               fm_error *err)
+{
+    const GLenum code = gl->GetError();
+    if (code == GL_NO_ERROR)
+        return FM_OK;
+    if (code == GL_OUT_OF_MEMORY)
+        return fm_fail(err, FM_NO_MEMORY, "%s '%s': no room for %llu bytes", kind, name,
+                       (unsigned long long)bytes);
+    return fm_fail(err, FM_DEVICE_LOST, "%s '%s': %s", kind, name, gl_error_name(code));
+}
+
 fm_status osmesa_buffer_create(fm_buffer **buffer, fm_device *device, const fm_buffer_desc *desc,
                                fm_error *err)
 {
@@ -61,11 +74,11 @@ fm_status osmesa_buffer_create(fm_buffer **buffer, fm_device *device, const fm_b
     self->gl.CreateBuffers(1, &made->name);
     self->gl.NamedBufferStorage(made->name, (GLsizeiptr)((desc->bytes + 3) / 4 * 4), NULL,
                                 GL_DYNAMIC_STORAGE_BIT);
-    if (self->gl.GetError() != GL_NO_ERROR) {
+    status = check_storage(&self->gl, "buffer", desc->name, desc->bytes, err);
+    if (status != FM_OK) {
         self->gl.DeleteBuffers(1, &made->name);
         free(made);
-        return fm_fail(err, FM_NO_MEMORY, "buffer '%s': no room for %llu bytes", desc->name,
-                       (unsigned long long)desc->bytes);
+        return status;
     }
     made->bytes = desc->bytes;
     made->owner = desc->owner;
@@ -188,10 +201,9 @@ fm_status osmesa_image_create(fm_image_resource **image, fm_device *device,
     made->bytes = (uint64_t)desc->width_px * desc->height_px * layers * samples *
                   fm_format_bytes(desc->format);
     create_texture(made, &self->gl, desc, samples);
-    if (self->gl.GetError() != GL_NO_ERROR) {
+    status = check_storage(&self->gl, "image", desc->name, made->bytes, err);
+    if (status != FM_OK) {
         self->gl.DeleteTextures(1, &made->name);
-        status = fm_fail(err, FM_NO_MEMORY, "image '%s': no room for %llu bytes", desc->name,
-                         (unsigned long long)made->bytes);
         free(made);
         return status;
     }
