@@ -15,14 +15,16 @@ typedef struct fm_truth {
     uint64_t nonempty_pixels;
     const uint64_t *offsets;      /* [pixels + 1] */
     const fm_fragment *fragments; /* [F], by pixel, nearest first */
-    const uint32_t *arrival;      /* [F]: rank of the i-th arriving fragment of the pixel */
+    const uint32_t *arrival;      /* [F]: where the i-th arriving fragment of a pixel stands among the
+                                     pixel's fragments; NULL for flat layers */
     void *map;
     uint64_t map_bytes;
 } fm_truth;
 
 /* Captures the scene on the device (count, prefix sum, store in bands of pixels), sorts it and
- * writes it to path, atomically. */
-fm_status truth_capture(const char *path, fm_device *device, const fm_scene *scene, fm_error *err);
+ * writes it to path, atomically. common_folder: the runner's GLSL. */
+fm_status truth_capture(const char *path, fm_device *device, const fm_scene *scene,
+                        const char *common_folder, fm_error *err);
 fm_status truth_open(fm_truth **truth, const char *path, fm_error *err);
 void truth_close(fm_truth *truth);
 

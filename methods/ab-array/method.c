@@ -1,0 +1,28 @@
+#include "fragmark/method.h"
+
+const fm_method_desc fm_method = {
+    .abi = FM_ABI,
+    .size_bytes = sizeof(fm_method_desc),
+    .id = "ab-array",
+    .title = "AB-Array (FreePipe)",
+    .citation = "Liu, Huang, Liu, Wu 2010, FreePipe, doi:10.1145/1730804.1730817; Crassin 2010",
+    .version = "1",
+    .traits = FM_TRAIT_EXACT | FM_TRAIT_SORTS_IN_RESOLVE,
+    .keeps = FM_KEEPS_ALL,
+    .family = FM_FAMILY_A_BUFFER,
+    .marker = FM_MARKER_SQUARE,
+    .options = { { .name = "layout", .values = { "pixel", "layer" },
+                   .help = "a pixel's fragments side by side, or the i-th of all pixels" } },
+    .resources = {
+        { .name = "counters", .extent = { .per_pixel = 1 }, .used = { .per_pixel = 1 } },
+        { .name = "fragments", .element = FM_ELEMENT_UVEC2, .extent = { .per_pixel_n = 1 },
+          .used = { .per_fragment = 1 } },
+    },
+    .passes = {
+        { .name = "clear", .kind = FM_PASS_PIXELS, .shader = "clear.glsl",
+          .writes = { "counters" } },
+        { .name = "store", .shader = "store.glsl", .writes = { "counters", "fragments" } },
+        { .name = "resolve", .kind = FM_PASS_PIXELS, .shader = "resolve.glsl", .emits = true,
+          .reads = { "counters", "fragments" } },
+    },
+};

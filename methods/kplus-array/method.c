@@ -1,0 +1,29 @@
+#include "fragmark/method.h"
+
+const fm_method_desc fm_method = {
+    .abi = FM_ABI,
+    .size_bytes = sizeof(fm_method_desc),
+    .id = "kplus-array",
+    .title = "K+B-Array",
+    .citation = "Vasilakis, Fudos 2014, k+-buffer, doi:10.1145/2556700.2556702",
+    .version = "1",
+    .traits = FM_TRAIT_EXACT | FM_TRAIT_BOUNDED | FM_TRAIT_SORTS_IN_RESOLVE,
+    .keeps = FM_KEEPS_K_NEAREST,
+    .family = FM_FAMILY_K_PLUS_BUFFER,
+    .marker = FM_MARKER_SQUARE,
+    .options = { { .name = "layout", .values = { "pixel", "layer" },
+                   .help = "a pixel's fragments side by side, or the i-th of all pixels" } },
+    .resources = {
+        { .name = "counters", .extent = { .per_pixel = 1 }, .used = { .per_pixel = 1 } },
+        { .name = "fragments", .element = FM_ELEMENT_UVEC2, .extent = { .per_pixel_k = 1 },
+          .used = { .per_kept = 1 } },
+    },
+    .passes = {
+        { .name = "clear", .kind = FM_PASS_PIXELS, .shader = "clear.glsl",
+          .writes = { "counters", "fragments" } },
+        { .name = "store", .shader = "store.glsl", .exclusive = true,
+          .writes = { "counters", "fragments" } },
+        { .name = "resolve", .kind = FM_PASS_PIXELS, .shader = "resolve.glsl",
+          .emits = true, .reads = { "counters", "fragments" } },
+    },
+};

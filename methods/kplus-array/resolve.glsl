@@ -1,0 +1,13 @@
+#include "common/array.glsl"
+#define SORT_CAPACITY K
+#include "common/sort.glsl"
+
+// `count` fragments lie in the last slots.
+void resolve(uvec2 pixel)
+{
+    uint count = counters[fm_pixel_index(pixel)];
+    FM_LOOP for (uint i = 0u; i < count; ++i)
+        sorted[i] = fragments[array_slot(pixel, K - 1u - i, K)];
+    sort_fragments(count);
+    emit_sorted(pixel, count);
+}

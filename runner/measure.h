@@ -1,0 +1,54 @@
+/* One case in one process: warm-up, timed frames with the floor's between, then the check of every
+ * fragment. */
+#ifndef FM_MEASURE_H
+#define FM_MEASURE_H
+
+#include "check.h"
+#include "image.h"
+#include "instance.h"
+#include "truth.h"
+
+/* A timed frame of the method, and the frame of the floor that ran beside it. */
+typedef struct fm_sample {
+    uint64_t pass_ns[FM_MAX_PASSES];
+    uint64_t wall_ns;
+    uint64_t canary_ns;
+    uint64_t floor_store_ns, floor_frame_ns;
+} fm_sample;
+
+typedef struct fm_measurement {
+    fm_sample *samples; /* [sample_count]; owned */
+    uint32_t sample_count;
+    uint64_t bytes_allocated, bytes_predicted, bytes_used;
+    uint64_t lost;
+    fm_image *image; /* of the last timed frame; owned */
+
+    /* checked launches only */
+    bool is_checked;
+    fm_check check;
+    uint64_t culled, locked;
+    double self_max_abs;    /* timed image against its own fragments composited in double */
+    fm_image_error error;   /* against the picture of the fragments that it was to hand over */
+    double truncation_rmse; /* of that picture against the picture of all fragments */
+    double total_rmse;      /* of the image against the picture of all fragments */
+    fm_image *truth_image;  /* of the wanted fragments; owned */
+} fm_measurement;
+
+typedef struct fm_measure_desc {
+    const fm_instance_desc *method; /* its is_capture and capture_slots are set here */
+    const fm_instance_desc *floor;
+    const fm_truth *truth;
+    uint32_t frames, warmup;
+    bool check;
+} fm_measure_desc;
+
+/* A frame over this is sampled twice only. */
+#define MEASURE_LONG_FRAME_NS 2000000000ull
+
+/* Fragments of a pixel that truth wants of a method: UINT32_MAX means all. */
+uint32_t measure_wanted(const fm_method_desc *method, uint32_t k);
+
+fm_status measure_case(fm_measurement *measurement, const fm_measure_desc *desc, fm_error *err);
+void measurement_free(fm_measurement *measurement);
+
+#endif

@@ -1,0 +1,171 @@
+#include "truth.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "truth_file.h"
+
+static const char magic[8] = "fmtruth1";
+
+fm_status truth_file_open(truth_file *file, const char *path, fm_error *err)
+{
+    snprintf(file->path, sizeof file->path, "%s", path);
+    file->fragments = tmpfile();
+    file->arrival = tmpfile();
+    if (file->fragments == NULL || file->arrival == NULL)
+        return fm_fail(err, FM_IO, "a temporary file for truth: %s", strerror(errno));
+    return FM_OK;
+}
+
+static bool copy_all(FILE *out, FILE *in)
+{
+    char block[1 << 16];
+    size_t count;
+    if (fflush(in) != 0 || fseek(in, 0, SEEK_SET) != 0)
+        return false;
+    while ((count = fread(block, 1, sizeof block, in)) > 0)
+        if (fwrite(block, 1, count, out) != count)
+            return false;
+    return ferror(in) == 0;
+}
+
+static fm_status join(truth_file *file, const truth_header *header, const uint64_t *offsets,
+                      fm_error *err)
+{
+    truth_header full = *header;
+    const size_t pixels = (size_t)header->width_px * header->height_px;
+    FILE *out = fopen(file->path, "wb");
+    if (out == NULL)
+        return fm_fail(err, FM_IO, "%s: %s", file->path, strerror(errno));
+    memcpy(full.magic, magic, sizeof magic);
+    const bool written = fwrite(&full, sizeof full, 1, out) == 1 &&
+                         fwrite(offsets, sizeof *offsets, pixels + 1, out) == pixels + 1 &&
+                         copy_all(out, file->fragments) &&
+                         (!header->has_arrival || copy_all(out, file->arrival));
+    if (fclose(out) != 0 || !written)
+        return fm_fail(err, FM_IO, "%s: cannot be written: %s", file->path, strerror(errno));
+    return FM_OK;
+}
+
+fm_status truth_file_close(truth_file *file, fm_status status, const truth_header *header,
+                           const uint64_t *offsets, fm_error *err)
+{
+    if (status == FM_OK)
+        status = join(file, header, offsets, err);
+    if (file->fragments != NULL)
+        fclose(file->fragments);
+    if (file->arrival != NULL)
+        fclose(file->arrival);
+    return status;
+}
+
+/* Points the arrays into the map; false if the file's size does not fit its header. */
+static bool find_arrays(fm_truth *truth, const truth_header *header)
+{
+    const uint64_t pixels = (uint64_t)header->width_px * header->height_px;
+    const uint64_t count = header->fragment_count;
+    const uint64_t offsets_bytes = (pixels + 1) * sizeof(uint64_t);
+    if (count > truth->map_bytes || offsets_bytes > truth->map_bytes)
+        return false;
+    const uint64_t needed = sizeof *header + offsets_bytes + count * sizeof(fm_fragment) +
+                            (header->has_arrival ? count * sizeof(uint32_t) : 0);
+    if (needed != truth->map_bytes)
+        return false;
+    const char *at = (const char *)truth->map + sizeof *header;
+    truth->offsets = (const uint64_t *)(const void *)at;
+    truth->fragments = (const fm_fragment *)(const void *)(at + offsets_bytes);
+    if (header->has_arrival)
+        truth->arrival = (const uint32_t *)(const void *)(truth->fragments + count);
+    return truth->offsets[pixels] == count;
+}
+
+fm_status truth_open(fm_truth **out, const char *path, fm_error *err)
+{
+    struct stat info;
+    fm_status status = FM_OK;
+    fm_truth *truth = calloc(1, sizeof *truth);
+    const int fd = open(path, O_RDONLY | O_CLOEXEC);
+    *out = NULL;
+    if (truth == NULL || fd < 0 || fstat(fd, &info) != 0) {
+        status = fm_fail(err, FM_IO, "%s: %s", path, strerror(errno));
+        goto out;
+    }
+    truth->map_bytes = (uint64_t)info.st_size;
+    truth->map = mmap(NULL, truth->map_bytes, PROT_READ, MAP_PRIVATE, fd, 0);
+    if (truth->map == MAP_FAILED || truth->map_bytes < sizeof(truth_header)) {
+        truth->map = truth->map == MAP_FAILED ? NULL : truth->map;
+        status = fm_fail(err, FM_IO, "%s: not a truth file", path);
+        goto out;
+    }
+    const truth_header *header = truth->map;
+    truth->width_px = header->width_px;
+    truth->height_px = header->height_px;
+    truth->n = header->n;
+    truth->fragment_count = header->fragment_count;
+    truth->nonempty_pixels = header->nonempty_pixels;
+    if (memcmp(header->magic, magic, sizeof magic) != 0 || !find_arrays(truth, header)) {
+        status = fm_fail(err, FM_IO, "%s: damaged truth file", path);
+        goto out;
+    }
+    *out = truth;
+    truth = NULL;
+out:
+    if (fd >= 0)
+        close(fd);
+    truth_close(truth);
+    return status;
+}
+
+void truth_close(fm_truth *truth)
+{
+    if (truth == NULL)
+        return;
+    if (truth->map != NULL)
+        munmap(truth->map, truth->map_bytes);
+    free(truth);
+}
+
+static uint64_t kept_of(const fm_truth *truth, uint64_t pixel, uint32_t k)
+{
+    const uint64_t count = truth->offsets[pixel + 1] - truth->offsets[pixel];
+    return k > 0 && count > k ? k : count;
+}
+
+uint64_t truth_kept(const fm_truth *truth, uint32_t k)
+{
+    const uint64_t pixels = (uint64_t)truth->width_px * truth->height_px;
+    uint64_t kept = 0;
+    for (uint64_t i = 0; i < pixels; i++)
+        kept += kept_of(truth, i, k);
+    return kept;
+}
+
+void composite_pixel(double rgba[4], const fm_fragment *fragments, uint64_t count)
+{
+    memset(rgba, 0, 4 * sizeof rgba[0]);
+    for (uint64_t i = 0; i < count; i++) {
+        const double through = 1.0 - rgba[3];
+        for (int channel = 0; channel < 4; channel++)
+            rgba[channel] += (fragments[i].colour >> (8 * channel) & 0xFFu) / 255.0 * through;
+    }
+}
+
+fm_status truth_composite(fm_image **image, const fm_truth *truth, uint32_t k, fm_error *err)
+{
+    const uint64_t pixels = (uint64_t)truth->width_px * truth->height_px;
+    fm_status status = image_create(image, truth->width_px, truth->height_px, err);
+    if (status != FM_OK)
+        return status;
+    for (uint64_t i = 0; i < pixels; i++) {
+        double rgba[4];
+        composite_pixel(rgba, &truth->fragments[truth->offsets[i]], kept_of(truth, i, k));
+        for (int channel = 0; channel < 4; channel++)
+            (*image)->rgba[4 * i + (uint64_t)channel] = (float)rgba[channel];
+    }
+    return FM_OK;
+}

@@ -1,0 +1,420 @@
+#include "worker.h"
+
+#include <inttypes.h>
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "device/device.h"
+#include "measure.h"
+#include "plugin.h"
+
+/* Largest difference of a timed image from its own captured fragments composited in double. */
+#define SELF_MAX_ABS 1e-6
+
+/* Everything a launch holds. */
+typedef struct launch_job {
+    json_t *request, *result;
+    fm_device *device;
+    fm_plugin *method, *floor;
+    fm_settings settings;
+    fm_choice choices[FM_MAX_OPTIONS];
+    size_t choice_count;
+    uint32_t feed;
+    fm_scene *scene;
+    fm_truth *truth;
+    fm_stage *stage;
+    fm_measurement measurement;
+    fm_error error;
+    const char *failed_in; /* "plugin": a failure is the plugin's fault */
+} launch_job;
+
+static const struct feed_name {
+    const char *name;
+    uint32_t feed;
+} feed_names[] = {
+    { "raster", FM_FEED_RASTER },
+    { "compute-layer", FM_FEED_COMPUTE_LAYER },
+    { "compute-pixel", FM_FEED_COMPUTE_PIXEL },
+    { "compute-adjacent", FM_FEED_COMPUTE_ADJACENT },
+};
+
+/* ---- request ---- */
+
+static const char *text_of(const launch_job *job, const char *key)
+{
+    const char *text = json_string_value(json_object_get(job->request, key));
+    return text != NULL ? text : "";
+}
+
+static bool is_set(const launch_job *job, const char *key)
+{
+    return json_is_true(json_object_get(job->request, key));
+}
+
+static fm_status read_settings(launch_job *job)
+{
+    const char *name;
+    json_t *value;
+    fm_status status = FM_OK;
+    settings_default(&job->settings);
+    json_object_foreach(json_object_get(job->request, "settings"), name, value)
+    {
+        const fm_key *key = key_find(name);
+        const char *text = json_string_value(value);
+        if (key == NULL || text == NULL)
+            return fm_fail(&job->error, FM_INVALID, "request: settings: '%s'", name);
+        status = settings_set(&job->settings, key, text, &job->error);
+        if (status != FM_OK)
+            return status;
+    }
+    json_object_foreach(json_object_get(job->request, "options"), name, value)
+    {
+        if (job->choice_count == FM_MAX_OPTIONS || !json_is_string(value))
+            return fm_fail(&job->error, FM_INVALID, "request: options: '%s'", name);
+        fm_choice *choice = &job->choices[job->choice_count++];
+        snprintf(choice->name, sizeof choice->name, "%s", name);
+        snprintf(choice->value, sizeof choice->value, "%s", json_string_value(value));
+    }
+    return status;
+}
+
+static fm_status read_feed(launch_job *job)
+{
+    const char *name = text_of(job, "feed");
+    for (size_t i = 0; i < sizeof feed_names / sizeof feed_names[0]; i++)
+        if (strcmp(feed_names[i].name, name) == 0)
+            job->feed = feed_names[i].feed;
+    if (job->feed == 0)
+        return fm_fail(&job->error, FM_UNSUPPORTED, "feed '%s' is not one that this device carries",
+                       name);
+    return FM_OK;
+}
+
+static fm_status open_device(launch_job *job)
+{
+    const fm_device_desc desc = { .validation = is_set(job, "validation"),
+                                  .no_timers = is_set(job, "no_timers") };
+    fm_status status = device_open(&job->device, text_of(job, "device"), &desc, &job->error);
+    if (status != FM_OK)
+        return status;
+    const fm_device_caps *caps = &job->device->caps;
+    json_object_set_new(job->result, "device_name", json_string(caps->name));
+    json_object_set_new(job->result, "device_driver", json_string(caps->driver));
+    json_object_set_new(job->result, "device_api", json_string(caps->api));
+    json_object_set_new(job->result, "has_gpu_clock", json_boolean(caps->has_gpu_clock));
+    json_object_set_new(job->result, "is_software", json_boolean(caps->is_software));
+    return FM_OK;
+}
+
+static fm_status open_plugins(launch_job *job)
+{
+    job->failed_in = "plugin";
+    fm_status status = plugin_open(&job->method, text_of(job, "plugin"), &job->error);
+    if (status == FM_OK)
+        status = plugin_open(&job->floor, text_of(job, "floor"), &job->error);
+    job->failed_in = NULL;
+    return status;
+}
+
+static fm_status open_scene(launch_job *job)
+{
+    fm_status status = settings_finish(&job->settings, &job->error);
+    if (status == FM_OK)
+        status = scene_create(&job->scene, &job->settings, &job->error);
+    return status;
+}
+
+/* ---- result ---- */
+
+static void set_number(json_t *object, const char *name, double value)
+{
+    if (isfinite(value))
+        json_object_set_new(object, name, json_real(value));
+    else
+        json_object_set_new(object, name,
+                            json_string(isnan(value) ? "nan"
+                                        : value > 0  ? "inf"
+                                                     : "-inf"));
+}
+
+static void set_count(json_t *object, const char *name, uint64_t value)
+{
+    json_object_set_new(object, name, json_integer((json_int_t)value));
+}
+
+static void add_sample(json_t *samples, uint32_t frame, const char *metric, double value,
+                       const char *unit)
+{
+    json_array_append_new(samples, json_pack("{s:i, s:s, s:f, s:s}", "frame", (int)frame, "metric",
+                                             metric, "value", value, "unit", unit));
+}
+
+static bool is_standard_pass(const char *name)
+{
+    static const char *const standard[] = { "clear", "count", "reference", "store", "resolve" };
+    for (size_t i = 0; i < sizeof standard / sizeof standard[0]; i++)
+        if (strcmp(standard[i], name) == 0)
+            return true;
+    return false;
+}
+
+static void add_frame(json_t *samples, uint32_t frame, const fm_sample *sample,
+                      const fm_method_desc *method)
+{
+    uint64_t sum = 0;
+    char metric[96];
+    for (size_t i = 0; i < FM_MAX_PASSES && method->passes[i].name != NULL; i++) {
+        const char *name = method->passes[i].name;
+        snprintf(metric, sizeof metric, "%s%s_ms", is_standard_pass(name) ? "" : "pass.", name);
+        add_sample(samples, frame, metric, (double)sample->pass_ns[i] * 1e-6, "ms");
+        sum += sample->pass_ns[i];
+    }
+    add_sample(samples, frame, "frame_ms", (double)sum * 1e-6, "ms");
+    add_sample(samples, frame, "frame_wall_ms", (double)sample->wall_ns * 1e-6, "ms");
+    add_sample(samples, frame, "floor_store_ms", (double)sample->floor_store_ns * 1e-6, "ms");
+    add_sample(samples, frame, "floor_frame_ms", (double)sample->floor_frame_ns * 1e-6, "ms");
+    add_sample(samples, frame, "canary_ns", (double)sample->canary_ns, "ns");
+}
+
+static void add_checked(json_t *metrics, const fm_measurement *m, const fm_truth *truth)
+{
+    set_count(metrics, "fragments_stored", m->check.captured);
+    set_count(metrics, "fragments_culled", m->culled);
+    set_count(metrics, "locks_taken", m->locked);
+    set_count(metrics, "missing", m->check.missing);
+    set_count(metrics, "extra", m->check.extra);
+    set_count(metrics, "misordered", m->check.misordered);
+    set_count(metrics, "depth_ulp_max", m->check.depth_ulp_max);
+    set_count(metrics, "wrong_pixels", m->check.wrong_pixels);
+    set_count(metrics, "nonempty_pixels", truth->nonempty_pixels);
+    set_number(metrics, "self_max_abs", m->self_max_abs);
+    set_number(metrics, "rmse", m->error.rmse);
+    set_number(metrics, "psnr_db", m->error.psnr_db);
+    set_number(metrics, "max_abs", m->error.max_abs);
+    set_number(metrics, "ssim", m->error.ssim);
+    set_number(metrics, "truncation_rmse", m->truncation_rmse);
+    set_number(metrics, "total_rmse", m->total_rmse);
+}
+
+static void add_metrics(launch_job *job)
+{
+    const fm_measurement *m = &job->measurement;
+    json_t *metrics = json_object(), *samples = json_array();
+    char hash[17];
+    set_count(metrics, "n", job->stage->n);
+    set_count(metrics, "bytes_allocated", m->bytes_allocated);
+    set_count(metrics, "bytes_predicted", m->bytes_predicted);
+    set_count(metrics, "bytes_used", m->bytes_used);
+    set_count(metrics, "fragments_generated", job->truth->fragment_count);
+    set_count(metrics, "fragments_lost", m->lost);
+    if (m->is_checked)
+        add_checked(metrics, m, job->truth);
+    for (uint32_t i = 0; i < m->sample_count; i++)
+        add_frame(samples, i, &m->samples[i], job->method->method);
+    snprintf(hash, sizeof hash, "%016" PRIx64, image_hash(m->image));
+    json_object_set_new(job->result, "image_hash", json_string(hash));
+    json_object_set_new(job->result, "metrics", metrics);
+    json_object_set_new(job->result, "samples", samples);
+}
+
+/* What was allocated and run for this scene, and so what was not. */
+static void add_modelled(launch_job *job)
+{
+    json_t *scene = json_array(), *passes = json_array(), *buffers = json_array();
+    for (int i = 0; i < STAGE_SLOT_COUNT; i++)
+        if (job->stage->slots[i].buffer != NULL)
+            json_array_append_new(scene, json_string(job->stage->slots[i].name));
+    if (job->stage->vertices != NULL)
+        json_array_append_new(scene, json_string("vertices"));
+    for (size_t i = 0; i < FM_MAX_PASSES && job->method->method->passes[i].name != NULL; i++)
+        json_array_append_new(passes, json_string(job->method->method->passes[i].name));
+    for (size_t i = 0; i < FM_MAX_RESOURCES && job->method->method->resources[i].name != NULL; i++)
+        json_array_append_new(buffers, json_string(job->method->method->resources[i].name));
+    json_object_set_new(
+        job->result, "modelled",
+        json_pack("{s:o, s:o, s:o}", "scene", scene, "passes", passes, "buffers", buffers));
+}
+
+static const char *status_word(const launch_job *job, fm_status status)
+{
+    if (status != FM_OK && job->failed_in != NULL)
+        return "plugin_error";
+    switch (status) {
+    case FM_OK:
+        return "ok";
+    case FM_UNSUPPORTED:
+        return "not_supported";
+    case FM_NO_MEMORY:
+        return "out_of_memory";
+    case FM_DEVICE_LOST:
+        return "device_lost";
+    case FM_INVALID:
+    case FM_IO:
+    case FM_SHADER:
+    case FM_STATUS_COUNT:
+        break;
+    }
+    return "plugin_error";
+}
+
+/* An exact method is judged; of others wrong images are data. */
+static bool is_wrong(launch_job *job)
+{
+    const fm_measurement *m = &job->measurement;
+    if ((job->method->method->traits & FM_TRAIT_EXACT) == 0 || !m->is_checked)
+        return false;
+    if (m->check.missing + m->check.extra + m->check.misordered + m->lost > 0) {
+        fm_fail(&job->error, FM_OK,
+                "declared exact, but missing %" PRIu64 ", extra %" PRIu64 ", misordered %" PRIu64
+                ", lost %" PRIu64 " fragments in %" PRIu64 " pixels",
+                m->check.missing, m->check.extra, m->check.misordered, m->lost,
+                m->check.wrong_pixels);
+        return true;
+    }
+    if (m->self_max_abs <= SELF_MAX_ABS)
+        return false;
+    fm_fail(&job->error, FM_OK,
+            "declared exact, but the timed image is %.3g from its own fragments (%.0e is allowed)",
+            m->self_max_abs, SELF_MAX_ABS);
+    return true;
+}
+
+/* ---- jobs ---- */
+
+static fm_status truth_job(launch_job *job)
+{
+    const char *path = text_of(job, "truth");
+    fm_status status = open_device(job);
+    if (status == FM_OK)
+        status = open_scene(job);
+    if (status == FM_OK)
+        status = truth_capture(path, job->device, job->scene, text_of(job, "common"), &job->error);
+    if (status == FM_OK)
+        status = truth_open(&job->truth, path, &job->error);
+    if (status != FM_OK)
+        return status;
+    json_t *metrics = json_object();
+    set_count(metrics, "n", job->truth->n);
+    set_count(metrics, "fragments_generated", job->truth->fragment_count);
+    set_count(metrics, "nonempty_pixels", job->truth->nonempty_pixels);
+    json_object_set_new(job->result, "metrics", metrics);
+    return FM_OK;
+}
+
+static fm_status write_images(launch_job *job)
+{
+    const char *path = text_of(job, "image");
+    char truth_path[FM_PATH_MAX_BYTES];
+    static const char suffix[] = ".rgba32f";
+    const size_t length = strlen(path);
+    if (length == 0)
+        return FM_OK;
+    if (length < sizeof suffix || length + sizeof ".truth" > sizeof truth_path)
+        return fm_fail(&job->error, FM_INVALID, "request: image: '%s'", path);
+    snprintf(truth_path, sizeof truth_path, "%.*s.truth%s", (int)(length - sizeof suffix + 1), path,
+             suffix);
+    fm_status status = image_write(path, job->measurement.image, &job->error);
+    if (status == FM_OK && job->measurement.truth_image != NULL)
+        status = image_write(truth_path, job->measurement.truth_image, &job->error);
+    return status;
+}
+
+static fm_status measure(launch_job *job)
+{
+    const char *common = text_of(job, "common");
+    const uint32_t wanted = measure_wanted(job->method->method, job->settings.k);
+    const fm_instance_desc method = {
+        .stage = job->stage,
+        .method = job->method->method,
+        .folders = { job->method->folder, common },
+        .settings = &job->settings,
+        .choices = job->choices,
+        .choice_count = job->choice_count,
+        .fragments = job->truth->fragment_count,
+        .fragments_kept = truth_kept(job->truth, wanted == UINT32_MAX ? 0 : wanted),
+    };
+    fm_instance_desc floor = method;
+    floor.method = job->floor->method;
+    floor.folders.method = job->floor->folder;
+    floor.choice_count = 0;
+    const fm_measure_desc desc = { .method = &method,
+                                   .floor = &floor,
+                                   .truth = job->truth,
+                                   .frames = job->settings.frames,
+                                   .warmup = job->settings.warmup,
+                                   .check = is_set(job, "check") };
+    return measure_case(&job->measurement, &desc, &job->error);
+}
+
+static fm_status measure_job(launch_job *job)
+{
+    fm_status status = open_plugins(job);
+    if (status == FM_OK)
+        status = read_feed(job);
+    if (status == FM_OK)
+        status = open_device(job);
+    if (status == FM_OK)
+        status = open_scene(job);
+    if (status == FM_OK)
+        status = truth_open(&job->truth, text_of(job, "truth"), &job->error);
+    if (status == FM_OK)
+        status =
+            stage_create(&job->stage, job->device, job->scene, job->truth, job->feed, &job->error);
+    if (status == FM_OK)
+        status = measure(job);
+    if (status == FM_OK)
+        status = write_images(job);
+    if (status != FM_OK)
+        return status;
+    add_metrics(job);
+    add_modelled(job);
+    return FM_OK;
+}
+
+static void note_validation(launch_job *job)
+{
+    const char *first = "";
+    if (job->device == NULL || !is_set(job, "validation"))
+        return;
+    const uint32_t count = job->device->ops->validation_errors(job->device, &first);
+    json_object_set_new(job->result, "validation_errors", json_integer(count));
+    json_object_set_new(job->result, "validation_message", json_string(first));
+}
+
+static void release(launch_job *job)
+{
+    measurement_free(&job->measurement);
+    stage_destroy(job->stage);
+    truth_close(job->truth);
+    scene_destroy(job->scene);
+    device_close(job->device);
+    plugin_close(job->floor);
+    plugin_close(job->method);
+    json_decref(job->request);
+    json_decref(job->result);
+}
+
+int worker_main(const char *request_path, const char *result_path)
+{
+    launch_job job = { .result = json_object() };
+    json_error_t at;
+    job.request = json_load_file(request_path, 0, &at);
+    fm_status status = FM_OK;
+    if (job.request == NULL)
+        status = fm_fail(&job.error, FM_IO, "%s:%d: %s", request_path, at.line, at.text);
+    if (status == FM_OK)
+        status = read_settings(&job);
+    if (status == FM_OK)
+        status = strcmp(text_of(&job, "job"), "truth") == 0 ? truth_job(&job) : measure_job(&job);
+    const char *word =
+        status == FM_OK && is_wrong(&job) ? "wrong_image" : status_word(&job, status);
+    json_object_set_new(job.result, "status", json_string(word));
+    json_object_set_new(job.result, "message", json_string(job.error.message));
+    note_validation(&job);
+    const int written = json_dump_file(job.result, result_path, JSON_INDENT(1));
+    release(&job);
+    return written == 0 ? 0 : 1;
+}
