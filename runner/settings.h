@@ -1,6 +1,6 @@
-/* Every key that a spec, a scene file or -a can set: one table of names, types, ranges, defaults and
- * help, and the struct that they fill. Scene files, spec files, `-a KEY=VALUE` and `--help` share
- * this table and nothing else knows a key's spelling.
+/* Every key that a spec, a scene file or -a can set: one table of names, types, ranges, defaults
+ * and help, and the struct that they fill. Scene files, spec files, `-a KEY=VALUE` and `--help`
+ * share this table and nothing else knows a key's spelling.
  *
  * A value that may be an axis ("k=4,8,16", "k=4:64:*2", "k=4:16:+4") is kept as a list of texts in
  * a plan; one case has exactly one value for each key. */
@@ -22,7 +22,7 @@ typedef enum fm_order {
     FM_ORDER_RANDOM_CELL, /* a different order in each cell */
     FM_ORDER_ASCENDING,   /* nearest first */
     FM_ORDER_DESCENDING,
-    FM_ORDER_CELL_MAJOR,  /* all layers of a cell drawn consecutively, in one random order */
+    FM_ORDER_CELL_MAJOR, /* all layers of a cell drawn consecutively, in one random order */
 } fm_order;
 
 typedef enum fm_depths {
@@ -59,8 +59,8 @@ typedef struct fm_settings {
     fm_generator generator;
 
     /* layers */
-    uint32_t n;  /* layers; 0 is an empty scene; FM_NOT_GIVEN until settings_finish. Meshes: 0 */
-    uint32_t r;  /* n = r * k; 0: not given. Kept for the record: n alone makes the scene */
+    uint32_t n; /* layers; 0 is an empty scene; FM_NOT_GIVEN until settings_finish. Meshes: 0 */
+    uint32_t r; /* n = r * k; 0: not given. Kept for the record: n alone makes the scene */
     double pixel_density;
     double fragment_probability;
     uint32_t tessellation;
@@ -72,12 +72,12 @@ typedef struct fm_settings {
     uint64_t seed;
 
     /* mesh */
-    char mesh[FM_PATH_MAX_BYTES]; /* file; relative to the scene file that names it */
-    double eye[3], target[3], up[3]; /* eye == target: fitted to the box of the mesh */
+    char mesh[FM_PATH_MAX_BYTES];          /* file; relative to the scene file that names it */
+    double eye[3], target[3], up[3];       /* eye == target: fitted to the box of the mesh */
     double fov_deg, near_plane, far_plane; /* 0, 0: 0.4 and 1.7 of the box's distance */
-    double zoom;                 /* of the fitted camera */
+    double zoom;                           /* of the fitted camera */
     uint32_t instances;
-    double instance_offset[3];   /* in box sizes */
+    double instance_offset[3]; /* in box sizes */
 
     /* method and run */
     uint32_t k; /* 0: the method does not use it */
@@ -89,7 +89,7 @@ typedef struct fm_settings {
 } fm_settings;
 
 typedef enum fm_key_type {
-    FM_KEY_UINT,   /* uint32_t */
+    FM_KEY_UINT, /* uint32_t */
     FM_KEY_UINT64,
     FM_KEY_REAL,   /* double */
     FM_KEY_VECTOR, /* double[3], "x y z" or a YAML sequence */
@@ -107,15 +107,15 @@ typedef struct fm_key {
     const char *name; /* the column of summary.csv where there is one */
     fm_key_type type;
     fm_key_scope scope;
-    size_t offset;           /* in fm_settings */
-    double low, high;        /* numbers: inclusive range */
-    const char *fallback;    /* default, as text */
-    const char *values[8];   /* enums */
-    const char *unit;        /* "px", "" */
-    const char *help;        /* one line */
-    fm_generator generator;  /* scene keys: which generator reads it ... */
-    bool any_generator;      /* ... or all */
-    bool optional;           /* FM_KEY_UINT: "none" is a value too, kept as `absent` */
+    size_t offset;          /* in fm_settings */
+    double low, high;       /* numbers: inclusive range */
+    const char *fallback;   /* default, as text */
+    const char *values[8];  /* enums */
+    const char *unit;       /* "px", "" */
+    const char *help;       /* one line */
+    fm_generator generator; /* scene keys: which generator reads it ... */
+    bool any_generator;     /* ... or all */
+    bool optional;          /* FM_KEY_UINT: "none" is a value too, kept as `absent` */
     uint32_t absent;
 } fm_key;
 
@@ -139,13 +139,13 @@ void settings_default(fm_settings *settings);
 fm_status settings_set(fm_settings *settings, const fm_key *key, const char *text, fm_error *err);
 /* One key's value as canonical text ("0.25", "random-cell"): settings_set takes it back. */
 void settings_text(char text[FM_PATH_MAX_BYTES], const fm_settings *settings, const fm_key *key);
-/* Checks what concerns several keys and completes n: n = r * k, r being 4 if neither n nor r was given.
- * FM_INVALID: n and r that contradict each other, neither without a k, too many fragments, a mesh
- * scene without a mesh, clip planes out of order. Finished settings, also with k then set to 0
+/* Checks what concerns several keys and completes n: n = r * k, r being 4 if neither n nor r was
+ * given. FM_INVALID: n and r that contradict each other, neither without a k, too many fragments, a
+ * mesh scene without a mesh, clip planes out of order. Finished settings, also with k then set to 0
  * (not used), pass again unchanged, so that they can travel as texts. */
 fm_status settings_finish(fm_settings *settings, fm_error *err);
-/* xxhash of all scene keys that this settings' generator uses, as 16 hex digits. Mesh files enter by
- * their content (their name, if they cannot be read); r does not enter, for n does. */
+/* xxhash of all scene keys that this settings' generator uses, as 16 hex digits. Mesh files enter
+ * by their content (their name, if they cannot be read); r does not enter, for n does. */
 void settings_scene_hash(char hash[17], const fm_settings *settings);
 /* The same for a mesh whose digest is known: reads no file. */
 void settings_scene_hash_of(char hash[17], const fm_settings *settings, uint64_t mesh_digest);
