@@ -81,7 +81,7 @@ static json_t *devices_json(const fm_results *results)
     return devices;
 }
 
-static json_t *method_json(const fm_method_desc *method)
+json_t *method_json(const fm_method_desc *method)
 {
     json_t *traits = json_array();
     for (unsigned bit = 0; bit < sizeof trait_name / sizeof trait_name[0]; bit++)

@@ -15,4 +15,8 @@ typedef struct fm_manifest_desc {
 /* Writes DIRECTORY/manifest.json anew, atomically. */
 fm_status manifest_write(const fm_manifest_desc *desc, fm_error *err);
 
+/* A method's descriptor for readers of results: title, citation, version, family, marker, dashed,
+ * traits. NULL without memory. */
+json_t *method_json(const fm_method_desc *method);
+
 #endif

@@ -1,0 +1,225 @@
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli.h"
+
+enum {
+    KEY_METHOD = 256,
+    KEY_SCENE,
+    KEY_DEVICE,
+    KEY_FEED,
+    KEY_PLUGINS,
+    KEY_SEED,
+    KEY_TIMEOUT,
+    KEY_MEMORY,
+    KEY_NO_IMAGES,
+    KEY_VALIDATION,
+    KEY_NO_TIMERS
+};
+
+static const struct argp_option selection_options[] = {
+    { "method", KEY_METHOD, "A,B", 0, "methods (`fragmark list methods`); all but controls", 0 },
+    { "scene", KEY_SCENE, "S,...", 0, "scenes, by name or file; layers", 0 },
+    { "device", KEY_DEVICE, "D,...", 0, "devices (`fragmark list devices`); vulkan", 0 },
+    { "feed", KEY_FEED, "F,...", 0,
+      "raster, compute-layer, compute-pixel, compute-adjacent; raster", 0 },
+    { "axis", 'a', "AXIS=VALUES", 0,
+      "values of one axis or of a method's option: k=4,8,16, k=4:64:*2, n=16:64:+16; repeatable",
+      0 },
+    { "plugin-dir", KEY_PLUGINS, "DIR", 0, "look for methods here first; repeatable", 0 },
+    { "seed", KEY_SEED, "N", 0, "of the order of launches and of the intervals", 0 },
+    { 0 },
+};
+
+static const struct argp_option running_options[] = {
+    { "output", 'o', "DIR", 0, "folder of the results; the same one continues a run; out-UTC", 0 },
+    { "timeout", KEY_TIMEOUT, "S", 0, "seconds that one launch may take; 600", 0 },
+    { "memory-limit", KEY_MEMORY, "BYTES", 0, "address space of one launch: 4G, 512M; none", 0 },
+    { "no-images", KEY_NO_IMAGES, NULL, 0, "keep no images", 0 },
+    { "validation", KEY_VALIDATION, NULL, 0, "open devices with API validation (times suffer)", 0 },
+    { "no-timers", KEY_NO_TIMERS, NULL, 0, "no timers, so that barriers follow accesses alone", 0 },
+    { "quiet", 'q', NULL, 0, "no progress", 0 },
+    { 0 },
+};
+
+void cli_argp_fail(struct argp_state *state, const fm_error *err)
+{
+    argp_error(state, "%s", err->message);
+}
+
+static void require(struct argp_state *state, fm_status status, const fm_error *err)
+{
+    if (status != FM_OK)
+        cli_argp_fail(state, err);
+}
+
+static error_t parse_selection(int key, char *text, struct argp_state *state)
+{
+    fm_arguments *arguments = state->input;
+    fm_error err = { 0 };
+    switch (key) {
+    case KEY_METHOD:
+        require(state, names_add_split(&arguments->methods, text, &err), &err);
+        return 0;
+    case KEY_SCENE:
+        require(state, names_add_split(&arguments->scenes, text, &err), &err);
+        return 0;
+    case KEY_DEVICE:
+        require(state, names_add_split(&arguments->devices, text, &err), &err);
+        return 0;
+    case KEY_FEED:
+        require(state, names_add_split(&arguments->feeds, text, &err), &err);
+        return 0;
+    case 'a':
+        require(state, names_add(&arguments->axes, text, &err), &err);
+        return 0;
+    case KEY_PLUGINS:
+        require(state, names_add(&arguments->plugin_folders, text, &err), &err);
+        return 0;
+    case KEY_SEED:
+        arguments->has_seed = true;
+        if (!text_to_u64(&arguments->seed, text))
+            argp_error(state, "--seed %s: not a whole number", text);
+        return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+/* "4G", "512M", "65536K", or bytes. */
+static bool parse_bytes(uint64_t *bytes, const char *text)
+{
+    static const char units[] = "KMGT";
+    char number[32];
+    const size_t length = strlen(text);
+    const char *unit = length > 0 ? strchr(units, text[length - 1]) : NULL;
+    const unsigned shift = unit != NULL ? 10u * (unsigned)(unit - units + 1) : 0;
+    if (length == 0 || length >= sizeof number)
+        return false;
+    snprintf(number, sizeof number, "%.*s", (int)(length - (unit != NULL)), text);
+    if (!text_to_u64(bytes, number) || *bytes == 0 || *bytes > UINT64_MAX >> shift)
+        return false;
+    *bytes <<= shift;
+    return true;
+}
+
+static error_t parse_running(int key, char *text, struct argp_state *state)
+{
+    fm_arguments *arguments = state->input;
+    uint64_t number = 0;
+    switch (key) {
+    case 'o':
+        if (text[0] == '\0' || strlen(text) >= FM_PATH_MAX_BYTES / 2)
+            argp_error(state, "-o: a path of 1 to %d bytes, please", FM_PATH_MAX_BYTES / 2 - 1);
+        arguments->directory = text;
+        return 0;
+    case KEY_TIMEOUT:
+        if (!text_to_u64(&number, text) || number == 0 || number > 1000000)
+            argp_error(state, "--timeout %s: 1..1000000 seconds, please", text);
+        arguments->timeout_s = (uint32_t)number;
+        return 0;
+    case KEY_MEMORY:
+        if (!parse_bytes(&arguments->memory_bytes, text))
+            argp_error(state, "--memory-limit %s: bytes as in 4G, 512M, please", text);
+        return 0;
+    case KEY_NO_IMAGES:
+        arguments->no_images = true;
+        return 0;
+    case KEY_VALIDATION:
+        arguments->validation = true;
+        return 0;
+    case KEY_NO_TIMERS:
+        arguments->no_timers = true;
+        return 0;
+    case 'q':
+        arguments->quiet = true;
+        return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+const struct argp cli_selection_argp = { .options = selection_options, .parser = parse_selection };
+const struct argp cli_running_argp = { .options = running_options, .parser = parse_running };
+
+char *cli_axes_help(int key, const char *text, void *input)
+{
+    (void)input;
+    fm_text all = { 0 };
+    if (key != ARGP_KEY_HELP_POST_DOC || text == NULL)
+        return (char *)(uintptr_t)text; /* argp's own, given back as it came */
+    text_add(&all, "%s\n\n", text);
+    keys_help(&all);
+    text_add(&all, "\n%s", CLI_EXIT_CODES);
+    return all.bytes;
+}
+
+void arguments_free(fm_arguments *arguments)
+{
+    fm_names *const lists[] = { &arguments->positional,    &arguments->methods, &arguments->scenes,
+                                &arguments->devices,       &arguments->feeds,   &arguments->axes,
+                                &arguments->plugin_folders };
+    for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++)
+        names_free(lists[i]);
+}
+
+static uint32_t larger(uint32_t a, uint32_t b)
+{
+    return a > b ? a : b;
+}
+
+static bool has_case(const fm_plan *plan, const char *id)
+{
+    for (size_t i = 0; i < plan->count; i++)
+        if (strcmp(plan->cases[i].id, id) == 0)
+            return true;
+    return false;
+}
+
+static fm_status merge(fm_plan *plan, const fm_plan *more, fm_error *err)
+{
+    fm_case *grown = reallocarray(plan->cases, plan->count + more->count + 1, sizeof *grown);
+    if (grown == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "no memory for %zu cases", plan->count + more->count);
+    plan->cases = grown;
+    for (size_t i = 0; i < more->count; i++)
+        if (!has_case(plan, more->cases[i].id))
+            plan->cases[plan->count++] = more->cases[i];
+    plan->seed = more->seed;
+    plan->launches = larger(plan->launches, more->launches);
+    plan->frames = larger(plan->frames, more->frames);
+    plan->warmup = larger(plan->warmup, more->warmup);
+    for (size_t i = 0; i < plan->count; i++) {
+        plan->cases[i].settings.launches = plan->launches;
+        plan->cases[i].settings.frames = plan->frames;
+        plan->cases[i].settings.warmup = plan->warmup;
+    }
+    return FM_OK;
+}
+
+fm_status arguments_plan(fm_plan *plan, fm_plugin_list *plugins, const fm_arguments *arguments,
+                         const char *const *specs, fm_error *err)
+{
+    fm_plan_request request = {
+        .methods = names_list(&arguments->methods),
+        .scenes = names_list(&arguments->scenes),
+        .devices = names_list(&arguments->devices),
+        .feeds = names_list(&arguments->feeds),
+        .axes = names_list(&arguments->axes),
+    };
+    *plan = (fm_plan){ 0 };
+    fm_status status = plugin_list_open(plugins, names_list(&arguments->plugin_folders), err);
+    for (size_t i = 0; status == FM_OK && (i == 0 || specs[i] != NULL); i++) {
+        fm_plan one = { 0 };
+        request.spec = specs[i];
+        status = plan_expand(&one, &request, plugins, err);
+        if (status == FM_OK)
+            status = merge(plan, &one, err);
+        plan_free(&one);
+        if (specs[i] == NULL)
+            break;
+    }
+    if (arguments->has_seed)
+        plan->seed = arguments->seed;
+    return status;
+}

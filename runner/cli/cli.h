@@ -1,0 +1,115 @@
+/* What the subcommands share. They write data to `out` and talk to `talk`; both come from main.c.
+ */
+#ifndef FM_CLI_H
+#define FM_CLI_H
+
+#include <argp.h>
+#include <jansson.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include "error.h"
+#include "plan.h"
+
+enum {
+    CLI_DONE = 0,
+    CLI_USAGE = 2,       /* usage or spec error: nothing was run */
+    CLI_NOTHING = 3,     /* nothing could be measured */
+    CLI_SOME_FAILED = 4, /* crash, timeout, out of memory, refused plugin, wrong image */
+    CLI_DAMAGED = 8,     /* a damaged or foreign file */
+    CLI_SIGNAL = 128,    /* + its number: interrupted, can be continued */
+};
+#define CLI_EXIT_CODES                                                                             \
+    "Exit codes: 0 done; 2 usage or spec error, nothing was run; 3 nothing could be measured; "    \
+    "4 some cases failed (crash, timeout, out of memory, refused plugin, wrong image of an exact " \
+    "method); 8 damaged or foreign file; 130, 143 interrupted: the same command continues it."
+
+typedef struct fm_cli {
+    FILE *out, *talk;
+} fm_cli;
+
+/* One subcommand; argv[0] is "fragmark NAME". Returns the exit code. */
+typedef int fm_command(const fm_cli *cli, int argc, char **argv);
+fm_command cli_list, cli_doctor, cli_plan, cli_run, cli_reproduce, cli_report;
+
+/* Says what went wrong and returns the exit code for it. */
+int cli_fail(const fm_cli *cli, const fm_error *err);
+/* Prints JSON and drops it. */
+int cli_print_json(const fm_cli *cli, json_t *object);
+
+/* A growing list of texts that ends with NULL. Starts as {0}. */
+typedef struct fm_names {
+    char **names; /* never NULL after names_add; owned */
+    size_t count;
+} fm_names;
+fm_status names_add(fm_names *names, const char *name, fm_error *err);
+/* Each part between commas; empty parts are FM_INVALID. */
+fm_status names_add_split(fm_names *names, const char *list, fm_error *err);
+/* A list that ends with NULL also when nothing was added. */
+const char *const *names_list(const fm_names *names);
+void names_free(fm_names *names);
+
+/* What run, plan and reproduce take. */
+typedef struct fm_arguments {
+    const fm_cli *cli;
+    fm_names positional; /* a spec, or figures */
+    fm_names methods, scenes, devices, feeds, axes, plugin_folders;
+    const char *directory; /* -o; NULL: not given */
+    uint32_t timeout_s;
+    uint64_t memory_bytes, seed;
+    bool has_seed, no_images, validation, no_timers, quiet, json, smoke;
+} fm_arguments;
+
+/* Options that these subcommands have in common; children of their argp. */
+extern const struct argp cli_selection_argp; /* --method ... -a, --plugin-dir, --seed */
+extern const struct argp cli_running_argp;   /* -o, --timeout ... */
+/* For argp's help_filter: "\v"-less text that ends with the table of axes. */
+char *cli_axes_help(int key, const char *text, void *input);
+/* argp_failure with err's message: prints it and ends the program with CLI_USAGE. */
+void cli_argp_fail(struct argp_state *state, const fm_error *err);
+void arguments_free(fm_arguments *arguments);
+/* Opens the plugins and expands the arguments. Several specs make one plan: equal cases are one,
+ * and launches, frames and warmup are the most of any. specs end with NULL; none: no spec. */
+fm_status arguments_plan(fm_plan *plan, fm_plugin_list *plugins, const fm_arguments *arguments,
+                         const char *const *specs, fm_error *err);
+
+/* The folder of this program. */
+fm_status program_folder(char folder[FM_PATH_MAX_BYTES], fm_error *err);
+
+/* Figure files: those of FRAGMARK_FIGURE_PATH (colons), then `figures` beside the program (build
+ * tree), then ../share/fragmark/figures (install tree); the first of an id wins. */
+typedef struct fm_figure {
+    char id[64]; /* the file's name without .yml */
+    char path[FM_PATH_MAX_BYTES];
+    char title[256];
+} fm_figure;
+typedef struct fm_figure_list {
+    fm_figure *figures; /* by id */
+    size_t count;
+} fm_figure_list;
+fm_status figures_list(fm_figure_list *list, fm_error *err);
+void figures_free(fm_figure_list *list);
+/* Writes what a figure runs as a spec file: its `run`, with `smoke` over it if so asked.
+ * FM_UNSUPPORTED: the figure has no `run`. */
+fm_status figure_write_spec(const char *path, const fm_figure *figure, bool is_smoke,
+                            fm_error *err);
+
+/* Plans are run, reported and summed up: the end of run and reproduce. figures ends with NULL. */
+int cli_run_plan(const fm_arguments *arguments, const char *directory, const fm_plan *plan,
+                 const fm_plugin_list *plugins, const char *const *figures, const char *command);
+/* -o, or out-UTC. */
+void cli_directory(char directory[FM_PATH_MAX_BYTES], const fm_arguments *arguments);
+/* The words of a command line, quoted where a shell needs it; the caller frees it. NULL: no memory
+ */
+char *cli_command_text(int argc, char **argv);
+
+/* Path of fragmark-report, beside the program or in PATH; false: there is none. */
+bool report_find(char path[FM_PATH_MAX_BYTES]);
+/* Executes it on a folder; its exit status, or -1 when it could not be executed. */
+int report_execute(const char *program, const char *directory);
+
+/* Seconds that a plan may take; a guess from the number of fragments. */
+double plan_seconds(const fm_plan *plan);
+
+#endif

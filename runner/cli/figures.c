@@ -1,0 +1,180 @@
+#include <dirent.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli.h"
+#include "yaml_tree.h"
+
+static int compare_ids(const void *left, const void *right)
+{
+    const fm_figure *a = left, *b = right;
+    return strcmp(a->id, b->id);
+}
+
+static bool has_figure(const fm_figure_list *list, const char *id)
+{
+    for (size_t i = 0; i < list->count; i++)
+        if (strcmp(list->figures[i].id, id) == 0)
+            return true;
+    return false;
+}
+
+/* A figure whose file is damaged is listed too: reproducing it says what is wrong. */
+static void read_title(fm_figure *figure)
+{
+    fm_yaml *root = NULL;
+    fm_error below = { 0 };
+    if (yaml_tree_read(&root, figure->path, &below) == FM_OK) {
+        const fm_yaml *title = yaml_tree_find(root, "title");
+        if (title != NULL && title->kind == FM_YAML_SCALAR)
+            snprintf(figure->title, sizeof figure->title, "%s", title->text);
+    }
+    yaml_tree_free(root);
+}
+
+static fm_status add_figure(fm_figure_list *list, const char *folder, const char *file,
+                            fm_error *err)
+{
+    fm_figure figure = { 0 };
+    const char *ending = strrchr(file, '.');
+    if (ending == NULL || strcmp(ending, ".yml") != 0 || file[0] == '.' ||
+        (size_t)(ending - file) >= sizeof figure.id)
+        return FM_OK;
+    snprintf(figure.id, sizeof figure.id, "%.*s", (int)(ending - file), file);
+    const int length = snprintf(figure.path, sizeof figure.path, "%s/%s", folder, file);
+    if (length < 0 || (size_t)length >= sizeof figure.path || has_figure(list, figure.id))
+        return FM_OK;
+    read_title(&figure);
+    fm_figure *grown = reallocarray(list->figures, list->count + 1, sizeof *grown);
+    if (grown == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "no memory for %zu figures", list->count + 1);
+    list->figures = grown;
+    grown[list->count++] = figure;
+    return FM_OK;
+}
+
+static fm_status add_folder(fm_figure_list *list, const char *folder, fm_error *err)
+{
+    fm_status status = FM_OK;
+    DIR *files = opendir(folder);
+    const struct dirent *file;
+    while (files != NULL && status == FM_OK && (file = readdir(files)) != NULL)
+        status = add_figure(list, folder, file->d_name, err);
+    if (files != NULL)
+        closedir(files);
+    return status;
+}
+
+fm_status figures_list(fm_figure_list *list, fm_error *err)
+{
+    static const char *const beside[] = { "figures", "../share/fragmark/figures" };
+    char program[FM_PATH_MAX_BYTES], folder[2 * FM_PATH_MAX_BYTES];
+    const char *search = getenv("FRAGMARK_FIGURE_PATH");
+    fm_status status = FM_OK;
+    *list = (fm_figure_list){ 0 };
+    while (search != NULL && *search != '\0' && status == FM_OK) {
+        const size_t length = strcspn(search, ":");
+        if (length > 0 && length < sizeof folder) {
+            snprintf(folder, sizeof folder, "%.*s", (int)length, search);
+            status = add_folder(list, folder, err);
+        }
+        search += length + (search[length] == ':');
+    }
+    if (status == FM_OK)
+        status = program_folder(program, err);
+    for (size_t i = 0; i < sizeof beside / sizeof beside[0] && status == FM_OK; i++) {
+        snprintf(folder, sizeof folder, "%s/%s", program, beside[i]);
+        status = add_folder(list, folder, err);
+    }
+    if (status == FM_OK && list->count > 0)
+        qsort(list->figures, list->count, sizeof *list->figures, compare_ids);
+    else
+        figures_free(list);
+    return status;
+}
+
+void figures_free(fm_figure_list *list)
+{
+    free(list->figures);
+    *list = (fm_figure_list){ 0 };
+}
+
+static json_t *tree_json(const fm_yaml *tree)
+{
+    json_t *json = NULL;
+    switch (tree->kind) {
+    case FM_YAML_SCALAR:
+        return json_string(tree->text);
+    case FM_YAML_LIST:
+        json = json_array();
+        for (size_t i = 0; i < tree->count; i++)
+            json_array_append_new(json, tree_json(&tree->items[i]));
+        return json;
+    case FM_YAML_MAP:
+        json = json_object();
+        for (size_t i = 0; i < tree->count; i++)
+            json_object_set_new(json, tree->items[i].key, tree_json(&tree->items[i]));
+        return json;
+    }
+    return NULL;
+}
+
+/* n and r say the same thing in two ways: whoever sets one takes the other away. */
+static bool is_replaced(const fm_yaml *smoke, const char *key)
+{
+    if (yaml_tree_find(smoke, key) != NULL)
+        return true;
+    return (strcmp(key, "n") == 0 && yaml_tree_find(smoke, "r") != NULL) ||
+           (strcmp(key, "r") == 0 && yaml_tree_find(smoke, "n") != NULL);
+}
+
+/* One line a key; its value as JSON, which YAML takes. */
+static void add_keys(fm_text *text, const fm_yaml *map, const fm_yaml *without)
+{
+    for (size_t i = 0; map != NULL && i < map->count; i++) {
+        if (without != NULL && is_replaced(without, map->items[i].key))
+            continue;
+        json_t *value = tree_json(&map->items[i]);
+        char *line = value != NULL ? json_dumps(value, JSON_ENCODE_ANY) : NULL;
+        if (line == NULL)
+            text->failed = true;
+        else
+            text_add(text, "%s: %s\n", map->items[i].key, line);
+        free(line);
+        json_decref(value);
+    }
+}
+
+static fm_status require_map(const fm_yaml *tree, const char *key, const char *path, fm_error *err)
+{
+    if (tree == NULL || tree->kind == FM_YAML_MAP)
+        return FM_OK;
+    return fm_fail(err, FM_INVALID, "%s:%u: '%s' is not a mapping", path, tree->line, key);
+}
+
+fm_status figure_write_spec(const char *path, const fm_figure *figure, bool is_smoke, fm_error *err)
+{
+    fm_yaml *root = NULL;
+    fm_text text = { 0 };
+    fm_status status = yaml_tree_read(&root, figure->path, err);
+    if (status != FM_OK)
+        return status;
+    const fm_yaml *run = yaml_tree_find(root, "run");
+    const fm_yaml *smoke = is_smoke ? yaml_tree_find(root, "smoke") : NULL;
+    status = require_map(run, "run", figure->path, err);
+    if (status == FM_OK)
+        status = require_map(smoke, "smoke", figure->path, err);
+    if (status == FM_OK && run == NULL)
+        status = fm_fail(err, FM_UNSUPPORTED, "%s: has no 'run': nothing to measure", figure->path);
+    if (status != FM_OK)
+        goto out;
+    text_add(&text, "# %s%s\n", figure->id, smoke != NULL ? ", smoke" : "");
+    add_keys(&text, run, smoke);
+    add_keys(&text, smoke, NULL);
+    status = text.failed ? fm_fail(err, FM_NO_MEMORY, "%s: no memory", path)
+                         : text_write_file(path, text.bytes, text.length, err);
+out:
+    text_free(&text);
+    yaml_tree_free(root);
+    return status;
+}

@@ -1,0 +1,218 @@
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "cli.h"
+
+enum { KEY_SMOKE = 512 };
+
+static const struct argp_option options[] = {
+    { "smoke", KEY_SMOKE, NULL, 0, "the figure's own small variant: minutes, no GPU needed", 0 },
+    { 0 },
+};
+
+static error_t parse(int key, char *text, struct argp_state *state)
+{
+    fm_arguments *arguments = state->input;
+    fm_error err = { 0 };
+    switch (key) {
+    case ARGP_KEY_INIT:
+        state->child_inputs[0] = state->input;
+        state->child_inputs[1] = state->input;
+        return 0;
+    case KEY_SMOKE:
+        arguments->smoke = true;
+        return 0;
+    case ARGP_KEY_ARG:
+        if (names_add(&arguments->positional, text, &err) != FM_OK)
+            cli_argp_fail(state, &err);
+        return 0;
+    case ARGP_KEY_END:
+        if (arguments->positional.count == 0)
+            argp_error(state, "which figure? `fragmark list figures` names them");
+        return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+static const struct argp_child children[] = {
+    { &cli_running_argp, 0, "How it is run:", 1 },
+    { &cli_selection_argp, 0, "Instead of what the figure says:", 2 },
+    { 0 },
+};
+static const struct argp argp = {
+    .options = options,
+    .parser = parse,
+    .args_doc = "FIGURE|PAPER|all...",
+    .doc = "Measures what figures of a paper show, draws them beside the printed values and checks "
+           "their claims."
+           "\v"
+           "Examples:\n"
+           "  fragmark reproduce kplus-05 --smoke -o quick\n"
+           "  fragmark reproduce kplus            all figures of that paper\n"
+           "  fragmark reproduce all --device vulkan:1\n"
+           "\n" CLI_EXIT_CODES,
+    .children = children,
+};
+
+/* "kplus" names all of kplus-05, kplus-06, ... */
+static bool is_meant(const fm_figure *figure, const char *name)
+{
+    const size_t length = strlen(name);
+    return strcmp(name, "all") == 0 || strcmp(name, figure->id) == 0 ||
+           (strncmp(name, figure->id, length) == 0 && figure->id[length] == '-');
+}
+
+static fm_status no_figure(const fm_figure_list *list, const char *name, fm_error *err)
+{
+    if (list->count == 0)
+        return fm_fail(err, FM_INVALID,
+                       "no figures found; FRAGMARK_FIGURE_PATH names their folder");
+    const char **ids = calloc(list->count, sizeof *ids);
+    if (ids == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "no memory for %zu figures", list->count);
+    for (size_t i = 0; i < list->count; i++)
+        ids[i] = list->figures[i].id;
+    const char *nearest = text_nearest(name, ids, list->count);
+    fm_fail(err, FM_INVALID, "no figure '%s'; %s '%s'", name,
+            nearest != NULL ? "the nearest is" : "there is", nearest != NULL ? nearest : ids[0]);
+    free(ids);
+    return FM_INVALID;
+}
+
+/* Marks what the arguments mean; a name that means nothing is an error. */
+static fm_status choose(bool *is_chosen, const fm_names *wanted, const fm_figure_list *list,
+                        fm_error *err)
+{
+    for (size_t i = 0; i < wanted->count; i++) {
+        bool is_known = false;
+        for (size_t j = 0; j < list->count; j++)
+            if (is_meant(&list->figures[j], wanted->names[i]))
+                is_chosen[j] = is_known = true;
+        if (!is_known)
+            return no_figure(list, wanted->names[i], err);
+    }
+    return FM_OK;
+}
+
+/* What this command works on: the chosen figures that have something to run, and their specs. */
+typedef struct spec_files {
+    char folder[FM_PATH_MAX_BYTES];
+    fm_names ids, paths;
+} spec_files;
+
+static fm_status write_specs(spec_files *specs, const fm_arguments *arguments,
+                             const fm_figure_list *list, const bool *is_chosen, fm_error *err)
+{
+    char path[FM_PATH_MAX_BYTES + 80];
+    fm_status status = FM_OK;
+    for (size_t i = 0; i < list->count && status == FM_OK; i++) {
+        if (!is_chosen[i])
+            continue;
+        snprintf(path, sizeof path, "%s/%s.yml", specs->folder, list->figures[i].id);
+        status = figure_write_spec(path, &list->figures[i], arguments->smoke, err);
+        if (status == FM_UNSUPPORTED) {
+            fprintf(arguments->cli->talk, "left out: %s\n", err->message);
+            status = FM_OK;
+            continue;
+        }
+        if (status == FM_OK)
+            status = names_add(&specs->ids, list->figures[i].id, err);
+        if (status == FM_OK)
+            status = names_add(&specs->paths, path, err);
+    }
+    if (status == FM_OK && specs->ids.count == 0)
+        status = fm_fail(err, FM_INVALID, "none of these figures has anything to run");
+    return status;
+}
+
+/* First somewhere else: the folder of the results may hold the specs of another run. */
+static fm_status open_specs(spec_files *specs, fm_error *err)
+{
+    const char *folder = getenv("TMPDIR");
+    const int length = snprintf(specs->folder, sizeof specs->folder, "%s/fragmark-specs-XXXXXX",
+                                folder != NULL && folder[0] != '\0' ? folder : "/tmp");
+    if (length < 0 || (size_t)length >= sizeof specs->folder || mkdtemp(specs->folder) == NULL) {
+        specs->folder[0] = '\0';
+        return fm_fail(err, FM_IO, "no temporary folder: %s", strerror(errno));
+    }
+    return FM_OK;
+}
+
+static void close_specs(spec_files *specs)
+{
+    for (size_t i = 0; i < specs->paths.count; i++)
+        unlink(specs->paths.names[i]);
+    if (specs->folder[0] != '\0')
+        rmdir(specs->folder);
+    names_free(&specs->ids);
+    names_free(&specs->paths);
+}
+
+/* DIR/specs: what was run, for the record. */
+static void keep_specs(const spec_files *specs, const char *directory)
+{
+    char path[3 * FM_PATH_MAX_BYTES];
+    snprintf(path, sizeof path, "%s/specs", directory);
+    mkdir(path, 0777);
+    for (size_t i = 0; i < specs->paths.count; i++) {
+        char *bytes = NULL;
+        size_t count = 0;
+        snprintf(path, sizeof path, "%s/specs/%s.yml", directory, specs->ids.names[i]);
+        if (text_read_file(&bytes, &count, specs->paths.names[i], 1u << 20, NULL) == FM_OK)
+            text_write_file(path, bytes, count, NULL);
+        free(bytes);
+    }
+}
+
+static int run_specs(const spec_files *specs, const fm_arguments *arguments, const char *command)
+{
+    int code;
+    char directory[FM_PATH_MAX_BYTES];
+    fm_plan plan = { 0 };
+    fm_plugin_list plugins = { 0 };
+    fm_error err = { 0 };
+    cli_directory(directory, arguments);
+    if (arguments_plan(&plan, &plugins, arguments, names_list(&specs->paths), &err) != FM_OK)
+        code = cli_fail(arguments->cli, &err);
+    else
+        code =
+            cli_run_plan(arguments, directory, &plan, &plugins, names_list(&specs->ids), command);
+    if (code != CLI_USAGE && code != CLI_DAMAGED)
+        keep_specs(specs, directory);
+    plan_free(&plan);
+    plugin_list_close(&plugins);
+    return code;
+}
+
+int cli_reproduce(const fm_cli *cli, int argc, char **argv)
+{
+    int code;
+    fm_arguments arguments = { .cli = cli };
+    fm_figure_list list = { 0 };
+    spec_files specs = { 0 };
+    fm_error err = { 0 };
+    char *command = cli_command_text(argc, argv);
+    bool *is_chosen = NULL;
+    argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    fm_status status = figures_list(&list, &err);
+    if (status == FM_OK && (is_chosen = calloc(list.count + 1, sizeof *is_chosen)) == NULL)
+        status = fm_fail(&err, FM_NO_MEMORY, "no memory for %zu figures", list.count);
+    if (status == FM_OK)
+        status = choose(is_chosen, &arguments.positional, &list, &err);
+    if (status == FM_OK)
+        status = open_specs(&specs, &err);
+    if (status == FM_OK)
+        status = write_specs(&specs, &arguments, &list, is_chosen, &err);
+    code = status != FM_OK ? cli_fail(cli, &err)
+                           : run_specs(&specs, &arguments, command != NULL ? command : "");
+    close_specs(&specs);
+    free(is_chosen);
+    figures_free(&list);
+    arguments_free(&arguments);
+    free(command);
+    return code;
+}

@@ -1,0 +1,175 @@
+#include "run.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "cli.h"
+
+static error_t parse(int key, char *text, struct argp_state *state)
+{
+    fm_arguments *arguments = state->input;
+    fm_error err = { 0 };
+    switch (key) {
+    case ARGP_KEY_INIT:
+        state->child_inputs[0] = state->input;
+        state->child_inputs[1] = state->input;
+        return 0;
+    case ARGP_KEY_ARG:
+        if (arguments->positional.count > 0)
+            argp_error(state, "'%s': one SPEC.yml only", text);
+        if (names_add(&arguments->positional, text, &err) != FM_OK)
+            cli_argp_fail(state, &err);
+        return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+static const struct argp_child children[] = {
+    { &cli_selection_argp, 0, "What is measured:", 1 },
+    { &cli_running_argp, 0, "How it is run:", 2 },
+    { 0 },
+};
+static const struct argp argp = {
+    .parser = parse,
+    .args_doc = "[SPEC.yml]",
+    .doc = "Measures methods on scenes: times, memory and errors as CSV, charts and a report."
+           "\v"
+           "Examples:\n"
+           "  fragmark run --method kb,kplus-array -a k=4:16:*2 -o first\n"
+           "  fragmark run --method all --device vulkan,osmesa -a n=32 -a launches=3\n"
+           "  fragmark run my.yml --scene bunny -o my-results\n"
+           "\n"
+           "A run that was stopped, or killed, goes on when the same command is given with the "
+           "same -o. Results: DIR/summary.csv (a row a case), DIR/samples.csv (a row a sample), "
+           "DIR/manifest.json, DIR/report.html.\n"
+           "\n"
+           "Axes, with their values and (default):",
+    .children = children,
+    .help_filter = cli_axes_help,
+};
+
+void cli_directory(char directory[FM_PATH_MAX_BYTES], const fm_arguments *arguments)
+{
+    struct tm utc;
+    const time_t now = time(NULL);
+    if (arguments->directory != NULL) {
+        snprintf(directory, FM_PATH_MAX_BYTES, "%s", arguments->directory);
+        return;
+    }
+    gmtime_r(&now, &utc);
+    strftime(directory, FM_PATH_MAX_BYTES, "out-%Y%m%dT%H%M%SZ", &utc);
+}
+
+char *cli_command_text(int argc, char **argv)
+{
+    fm_text text = { 0 };
+    for (int i = 0; i < argc; i++) {
+        /* argv[0] is "fragmark NAME": our own, two words. */
+        const bool is_plain =
+            i == 0 || (argv[i][0] != '\0' &&
+                       argv[i][strcspn(argv[i], " \t\n'\"*?$`\\()[]{}<>|&;#~!")] == '\0');
+        text_add(&text, "%s", i > 0 ? " " : "");
+        if (is_plain) {
+            text_add(&text, "%s", argv[i]);
+            continue;
+        }
+        text_add(&text, "'");
+        for (const char *c = argv[i]; *c != '\0'; c++)
+            text_add(&text, *c == '\'' ? "'\\''" : "%c", *c);
+        text_add(&text, "'");
+    }
+    if (text.failed)
+        text_free(&text);
+    return text.bytes;
+}
+
+static void report(const fm_cli *cli, const char *directory)
+{
+    char program[FM_PATH_MAX_BYTES];
+    if (!report_find(program)) {
+        fprintf(cli->talk, "fragmark-report is not here (it needs VTK and OpenImageIO): no charts "
+                           "and no report.html; the CSV files are complete\n");
+        return;
+    }
+    const int code = report_execute(program, directory);
+    if (code != 0)
+        fprintf(cli->talk, "%s failed (%d); again with: fragmark report %s\n", program, code,
+                directory);
+}
+
+static int exit_code(const fm_run_result *result)
+{
+    if (result->stop_signal != 0)
+        return CLI_SIGNAL + result->stop_signal;
+    if (result->failed > 0)
+        return CLI_SOME_FAILED;
+    return result->ok > 0 ? CLI_DONE : CLI_NOTHING;
+}
+
+static void sum_up(const fm_arguments *arguments, const fm_run_result *result,
+                   const char *directory, const char *command)
+{
+    FILE *talk = arguments->cli->talk;
+    if (result->stop_signal != 0)
+        fprintf(talk, "interrupted, nothing is lost: continue with the same command: %s%s%s\n",
+                command, arguments->directory == NULL ? " -o " : "",
+                arguments->directory == NULL ? directory : "");
+    fprintf(talk, "%s/summary.csv: %u ok, %u not supported, %u failed", directory, result->ok,
+            result->not_supported, result->failed);
+    if (result->skipped > 0)
+        fprintf(talk, ", %u not finished", result->skipped);
+    fputc('\n', talk);
+}
+
+int cli_run_plan(const fm_arguments *arguments, const char *directory, const fm_plan *plan,
+                 const fm_plugin_list *plugins, const char *const *figures, const char *command)
+{
+    fm_error err = { 0 };
+    fm_run_result result;
+    const fm_run_desc desc = {
+        .directory = directory,
+        .command = command,
+        .validation = arguments->validation,
+        .no_timers = arguments->no_timers,
+        .no_images = arguments->no_images,
+        .timeout_s = arguments->timeout_s,
+        .memory_bytes = arguments->memory_bytes,
+        .progress = arguments->quiet ? NULL : arguments->cli->talk,
+        .figures = figures,
+    };
+    if (run_cases(&result, plan, plugins, &desc, &err) != FM_OK) {
+        const int code = cli_fail(arguments->cli, &err);
+        return result.is_damaged ? CLI_DAMAGED : code;
+    }
+    sum_up(arguments, &result, directory, command);
+    if (result.stop_signal == 0)
+        report(arguments->cli, directory);
+    return exit_code(&result);
+}
+
+int cli_run(const fm_cli *cli, int argc, char **argv)
+{
+    int code;
+    fm_arguments arguments = { .cli = cli };
+    fm_plan plan = { 0 };
+    fm_plugin_list plugins = { 0 };
+    fm_error err = { 0 };
+    const char *const none[] = { NULL };
+    char directory[FM_PATH_MAX_BYTES];
+    char *command = cli_command_text(argc, argv);
+    argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    cli_directory(directory, &arguments);
+    if (arguments_plan(&plan, &plugins, &arguments, names_list(&arguments.positional), &err) !=
+        FM_OK)
+        code = cli_fail(cli, &err);
+    else
+        code = cli_run_plan(&arguments, directory, &plan, &plugins, none,
+                            command != NULL ? command : "");
+    plan_free(&plan);
+    plugin_list_close(&plugins);
+    arguments_free(&arguments);
+    free(command);
+    return code;
+}

@@ -1,0 +1,85 @@
+/* The program: subcommands, the streams they talk to, exit codes. */
+#include <string.h>
+
+#include "cli/cli.h"
+#include "text.h"
+#include "worker.h"
+
+static const struct {
+    const char *name, *title; /* what argp calls itself */
+    fm_command *run;
+    const char *help;
+} commands[] = {
+    { "list", "fragmark list", cli_list, "methods, scenes, devices or figures there are" },
+    { "doctor", "fragmark doctor", cli_doctor,
+      "what this machine can run, and how to fix what it cannot" },
+    { "plan", "fragmark plan", cli_plan,
+      "the cases of a run and the estimated time; runs nothing" },
+    { "run", "fragmark run", cli_run, "measures methods on scenes" },
+    { "reproduce", "fragmark reproduce", cli_reproduce, "measures what figures of a paper show" },
+    { "report", "fragmark report", cli_report, "charts and report.html again from the CSV" },
+};
+enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
+
+static void write_help(FILE *out)
+{
+    fprintf(out,
+            "Usage: fragmark COMMAND [ARGUMENTS]\n"
+            "Benchmarks and reproduces multi-fragment rendering methods: k-buffers, A-buffers.\n"
+            "\n");
+    for (int i = 0; i < COMMAND_COUNT; i++)
+        fprintf(out, "  %-10s %s\n", commands[i].name, commands[i].help);
+    fprintf(out, "\n`fragmark COMMAND --help` tells more, with examples. To begin with:\n"
+                 "  fragmark doctor\n"
+                 "  fragmark run --method all -a n=16 -a launches=2 -o first\n"
+                 "\n" CLI_EXIT_CODES "\n");
+}
+
+static int unknown_command(const char *name)
+{
+    const char *names[COMMAND_COUNT];
+    for (int i = 0; i < COMMAND_COUNT; i++)
+        names[i] = commands[i].name;
+    const char *nearest = text_nearest(name, names, COMMAND_COUNT);
+    fprintf(stderr, "fragmark: no command '%s'; ", name);
+    if (nearest != NULL)
+        fprintf(stderr, "the nearest is '%s'\n", nearest);
+    else
+        fprintf(stderr, "`fragmark --help` lists them\n");
+    return CLI_USAGE;
+}
+
+static int run_command(int index, int argc, char **argv)
+{
+    char title[32];
+    const fm_cli cli = { .out = stdout, .talk = stderr };
+    snprintf(title, sizeof title, "%s", commands[index].title);
+    argv[0] = title;
+    argp_err_exit_status = CLI_USAGE;
+    const int code = commands[index].run(&cli, argc, argv);
+    /* Data that did not arrive, on a full disk say, must not look like success. */
+    return fflush(stdout) == 0 && !ferror(stdout) ? code : CLI_NOTHING;
+}
+
+int main(int argc, char **argv)
+{
+    if (argc < 2) {
+        write_help(stderr);
+        return CLI_USAGE;
+    }
+    const char *name = argv[1];
+    if (strcmp(name, "worker") == 0 && argc == 4)
+        return worker_main(argv[2], argv[3]);
+    if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0 || strcmp(name, "help") == 0) {
+        write_help(stdout);
+        return CLI_DONE;
+    }
+    if (strcmp(name, "--version") == 0 || strcmp(name, "-V") == 0) {
+        printf("fragmark %s\n", FM_VERSION);
+        return CLI_DONE;
+    }
+    for (int i = 0; i < COMMAND_COUNT; i++)
+        if (strcmp(name, commands[i].name) == 0)
+            return run_command(i, argc - 1, argv + 1);
+    return unknown_command(name);
+}
