@@ -13,6 +13,14 @@ uvec2 fm_pack(float depth, uint colour)
 }
 const uint FM_EMPTY_BITS = 0x7F800000u; // +infinity: farther than any fragment, 1.0 included
 
+// Orders memory accesses of this invocation as others see them, where the hardware needs it.
+void fm_fence()
+{
+#if FM_LOCK_BARRIERS
+    memoryBarrierBuffer();
+#endif
+}
+
 // Fragments that found no room. In a helper invocation atomics do nothing, so none is counted there.
 void fm_lost(uvec2 pixel)
 {

@@ -1,12 +1,14 @@
 #include "common/array.glsl"
 
 // A max-heap in `count` slots from 0 on: the root is the farthest. Once it is full, the root is what a
-// fragment must beat. Read without the lock: the count only grows and the root only comes nearer, so
-// stale values cull too little, never too much; store() tests again.
+// fragment must beat. Read without the lock: a full heap's root only comes nearer, so a stale one culls
+// too little, never too much; store() tests again. The root is not the farthest before the heap is
+// full, hence the fences: whoever reads a full count reads a root of that time or later.
 bool wanted(uvec2 pixel, float depth)
 {
-    return counters[fm_pixel_index(pixel)] < K
-        || fm_pack(depth, 0u).x < fragments[array_slot(pixel, 0u, K)].x;
+    uint count = counters[fm_pixel_index(pixel)];
+    fm_fence();
+    return count < K || fm_pack(depth, 0u).x < fragments[array_slot(pixel, 0u, K)].x;
 }
 
 void sift_up(uvec2 pixel, uint at, uvec2 fragment)
@@ -49,8 +51,10 @@ void store(uvec2 pixel, float depth, uint colour)
     uint count = counters[i];
     uvec2 fragment = fm_pack(depth, colour);
     if (count < K) { // O(log k) for each, as the paper builds it
-        counters[i] = count + 1u;
         sift_up(pixel, count, fragment);
+        if (count + 1u == K)
+            fm_fence();
+        counters[i] = count + 1u;
     } else if (fragment.x < fragments[array_slot(pixel, 0u, K)].x) {
         sift_down(pixel, fragment);
     }
