@@ -1,0 +1,18 @@
+/* A paper's figure drawn from a run's results. */
+#ifndef FM_FIGURE_CHARTS_H
+#define FM_FIGURE_CHARTS_H
+
+#include "chart.h"
+#include "group.h"
+#include "paper_figure.h"
+
+/* Context: the figure. Takes the cases that belong to it. */
+bool figure_takes_case(const fm_case_row *result, const void *figure);
+
+/* One chart of the figure for one group. Methods that do not use k are level lines. FM_UNSUPPORTED:
+ * the group has nothing to draw in it, with the reason. The caller frees *chart. */
+fm_status figure_chart_make(fm_chart *chart, const fm_paper_figure *figure,
+                            const fm_figure_chart *from, const fm_result_files *results,
+                            const fm_group *group, fm_error *err);
+
+#endif

@@ -1,0 +1,34 @@
+/* Cases that may stand in one chart: same scene, workload, device and feed. */
+#ifndef FM_GROUP_H
+#define FM_GROUP_H
+
+#include "result_files.h"
+
+typedef struct fm_group {
+    const fm_case_row **cases; /* by method in order of appearance, then k, then options; owned */
+    size_t count;
+    char name[128];     /* of the group in file names: "layers-vulkan-raster", unique in a list */
+    char title[160];    /* "layers, llvmpipe, raster" */
+    char workload[200]; /* "854 x 480 pixels, n = 128, pixel density 0.25, ..." */
+} fm_group;
+
+typedef struct fm_groups {
+    fm_group *groups;
+    size_t count;
+} fm_groups;
+
+/* Which cases to take; NULL: all. */
+typedef bool (*fm_case_filter)(const fm_case_row *result, const void *context);
+
+fm_status groups_make(fm_groups *groups, const fm_result_files *results, fm_case_filter filter,
+                      const void *context, fm_error *err);
+void groups_free(fm_groups *groups);
+
+/* "K+B-Array", with the options that tell two series of one method apart. */
+void group_series_title(char title[96], const fm_case_row *result);
+/* Same method, version and options: points of one line. */
+bool group_same_series(const fm_case_row *a, const fm_case_row *b);
+/* Whether k matters: the method has several k, or the group has only one. */
+bool group_uses_k(const fm_group *group, const fm_case_row *result);
+
+#endif

@@ -1,0 +1,32 @@
+/* How families and methods look, the same in every chart. */
+#ifndef FM_LOOK_H
+#define FM_LOOK_H
+
+#include <stdint.h>
+
+#include "fragmark/method.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct fm_colour {
+    uint8_t r, g, b;
+} fm_colour;
+
+/* Okabe and Ito's eight colours, told apart by colour-blind readers: one a family. */
+fm_colour look_family_colour(fm_family family);
+/* A colour for the i-th part of a stacked bar: clear, count, reference, store, resolve, other. */
+fm_colour look_part_colour(size_t part);
+enum { FM_LOOK_PARTS = 8 };
+
+/* Names as manifest.json writes them: "k-plus-buffer", "square". Unknown: control, circle. */
+fm_family look_family(const char *name);
+fm_marker look_marker(const char *name);
+const char *look_family_name(fm_family family);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

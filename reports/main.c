@@ -1,0 +1,143 @@
+/* fragmark-report: arguments, exit codes, and the only place that prints. */
+#include <argp.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "report.h"
+
+enum { EXIT_DONE = 0, EXIT_USAGE = 2, EXIT_DAMAGED = 8, FIGURES_MOST = 32 };
+
+typedef struct arguments {
+    const char *directory;
+    const char *figures[FIGURES_MOST];
+    size_t figure_count;
+} arguments;
+
+static error_t parse(int key, char *value, struct argp_state *state)
+{
+    arguments *given = state->input;
+    switch (key) {
+    case 'f':
+        if (given->figure_count == FIGURES_MOST)
+            argp_error(state, "more than %d figures", FIGURES_MOST);
+        given->figures[given->figure_count++] = value;
+        return 0;
+    case ARGP_KEY_ARG:
+        if (given->directory != NULL)
+            argp_error(state, "one directory at a time; \"%s\" is a second one", value);
+        given->directory = value;
+        return 0;
+    case ARGP_KEY_END:
+        if (given->directory == NULL)
+            argp_error(state, "which directory? One that `fragmark run -o DIR` has written");
+        return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+/* Where a figure's file is: the argument itself, or an id in the folders that hold figures. */
+static bool find_figure(char path[1024], const char *name)
+{
+    const char *const folders[] = { getenv("FRAGMARK_FIGURE_PATH"), FM_FIGURES_SOURCE_DIR,
+                                    FM_FIGURES_INSTALL_DIR };
+    snprintf(path, 1024, "%s", name);
+    if (strchr(name, '/') != NULL || strchr(name, '.') != NULL)
+        return access(path, R_OK) == 0;
+    for (size_t i = 0; i < sizeof folders / sizeof folders[0]; i++) {
+        if (folders[i] == NULL)
+            continue;
+        snprintf(path, 1024, "%s/%s.yml", folders[i], name);
+        if (access(path, R_OK) == 0)
+            return true;
+    }
+    return false;
+}
+
+/* The run says which figures it is for; those asked for on the command line come instead. */
+static void take_figures_of_run(arguments *given, const fm_provenance *manifest)
+{
+    for (size_t i = 0; i < manifest->figure_count && given->figure_count < FIGURES_MOST; i++)
+        given->figures[given->figure_count++] = manifest->figures[i];
+}
+
+static fm_status read_figures(fm_paper_figure **figures, const arguments *given, fm_error *err)
+{
+    char path[1024];
+    for (size_t i = 0; i < given->figure_count; i++) {
+        if (!find_figure(path, given->figures[i]))
+            return fm_fail(err, FM_INVALID, "figure \"%s\": no such file, and no such id in %s",
+                           given->figures[i], FM_FIGURES_SOURCE_DIR);
+        fm_status status = paper_figure_read(&figures[i], path, err);
+        if (status != FM_OK)
+            return status;
+    }
+    return FM_OK;
+}
+
+static int make_report(arguments *given, fm_error *err)
+{
+    int code = EXIT_DAMAGED;
+    fm_result_files *results = NULL;
+    fm_paper_figure *figures[FIGURES_MOST] = { NULL };
+    const fm_paper_figure *borrowed[FIGURES_MOST] = { NULL };
+    fm_report_outcome outcome;
+    if (result_files_read(&results, given->directory, err) != FM_OK)
+        goto out;
+    if (given->figure_count == 0)
+        take_figures_of_run(given, results->manifest);
+    if (read_figures(figures, given, err) != FM_OK) {
+        code = EXIT_USAGE;
+        goto out;
+    }
+    memcpy(borrowed, figures, sizeof figures);
+    fm_report_desc desc = { .results = results,
+                            .figures = borrowed,
+                            .figure_count = given->figure_count };
+    if (report_write(&outcome, &desc, err) != FM_OK)
+        goto out;
+    fprintf(stderr, "%zu charts, %zu pictures\n", outcome.chart_count, outcome.picture_count);
+    printf("%s/report.html\n", given->directory);
+    code = EXIT_DONE;
+out:
+    for (size_t i = 0; i < given->figure_count; i++)
+        paper_figure_close(figures[i]);
+    result_files_close(results);
+    return code;
+}
+
+int main(int argc, char **argv)
+{
+    static const struct argp_option options[] = {
+        { "figure", 'f', "FIGURE", 0,
+          "Draw this figure of a paper: a file, or an id such as kplus-05. May be given again. "
+          "Without it: the figures that the run was made for",
+          0 },
+        { 0 },
+    };
+    static const struct argp argp = {
+        .options = options,
+        .parser = parse,
+        .args_doc = "DIR",
+        .doc = "Draws charts and writes report.html from the results in DIR.\v"
+               "Reads DIR/manifest.json, summary.csv, samples.csv and images/; measures nothing. "
+               "Writes DIR/charts/*.svg and *.png, DIR/images/*.png, *.exr and heat maps, and "
+               "DIR/report.html, one file that opens anywhere. Prints its path.\n\n"
+               "Examples:\n"
+               "  fragmark-report out/kplus-05\n"
+               "  fragmark-report out/mine --figure kplus-05\n"
+               "  fragmark-report out/mine --figure my-figure.yml\n\n"
+               "Exit status: 0 done, 2 wrong use or a bad figure file, 8 damaged or foreign "
+               "results.",
+    };
+    arguments given = { 0 };
+    fm_error err = { 0 };
+    argp_err_exit_status = EXIT_USAGE;
+    argp_parse(&argp, argc, argv, 0, NULL, &given);
+    int code = make_report(&given, &err);
+    if (code != EXIT_DONE)
+        fprintf(stderr, "fragmark-report: %s\n", err.message);
+    return code;
+}

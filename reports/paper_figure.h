@@ -1,0 +1,81 @@
+/* reports/figures/ID.yml: one figure of a paper as data.
+ *
+ *   id: kplus-05                   the file's name
+ *   paper: kplus
+ *   title: ...
+ *   source: where in the paper, and how its values were read
+ *   run:                           what `fragmark reproduce` measures: keys of a spec file
+ *     methods: [kplus-array, ...]
+ *     scenes: [layers]
+ *     feeds: [raster]
+ *     k: [4, 8]
+ *   smoke: { n: 32 }               what --smoke changes in `run`
+ *   charts:                        in the report's order
+ *     - id: time                   part of the file name charts/ID-time-*.svg
+ *       kind: lines                or stacked-bars
+ *       title: ...
+ *       x: k                       a number column of summary.csv
+ *       y: frame_ms                lines: any metric; frame_ms has intervals
+ *       parts: [clear_ms, ...]     stacked-bars: metrics, from the bottom up
+ *       ratio_to: kplus-array      lines: y over that method's at the same x
+ *       with_paper: true           lines with ratio_to: the paper's points, hollow
+ *       y_scale: log               or linear, the default
+ *   paper_points:
+ *     parts: [store_ms, resolve_ms]
+ *     series:
+ *       - method: kplus-array
+ *         title: Array             as the paper's legend has it
+ *         points: [[4, 3.9, 0.2], ...]   x, then one value a part
+ *   deviations: [sentences]
+ *
+ * Unknown keys are refused with file, line and the nearest known one. */
+#ifndef FM_PAPER_FIGURE_H
+#define FM_PAPER_FIGURE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "error.h"
+#include "yaml_tree.h"
+
+enum { FM_FIGURE_CHARTS = 8, FM_FIGURE_PARTS = 8, FM_FIGURE_LIST = 64, FM_FIGURE_POINTS = 256 };
+
+typedef struct fm_name_list {
+    const char *names[FM_FIGURE_LIST];
+    size_t count;
+} fm_name_list;
+
+typedef enum fm_figure_kind { FM_FIGURE_LINES, FM_FIGURE_STACKED_BARS } fm_figure_kind;
+
+typedef struct fm_figure_chart {
+    const char *id, *title, *x, *y;
+    const char *ratio_to; /* NULL: none */
+    fm_figure_kind kind;
+    fm_name_list parts;
+    bool with_paper, is_log;
+} fm_figure_chart;
+
+typedef struct fm_paper_point {
+    const char *method, *title;
+    double x, value; /* the sum of its parts */
+} fm_paper_point;
+
+typedef struct fm_paper_figure {
+    const char *id, *paper, *title, *source;
+    fm_name_list methods, scenes, feeds; /* of `run`; empty: all */
+    fm_name_list deviations;
+    fm_figure_chart charts[FM_FIGURE_CHARTS];
+    size_t chart_count;
+    fm_paper_point points[FM_FIGURE_POINTS];
+    size_t point_count;
+    fm_yaml *tree; /* holds all texts */
+} fm_paper_figure;
+
+/* FM_IO, FM_NO_MEMORY; FM_INVALID: naming file and line. The caller closes *figure. */
+fm_status paper_figure_read(fm_paper_figure **figure, const char *path, fm_error *err);
+void paper_figure_close(fm_paper_figure *figure);
+
+/* An empty list holds every name. */
+bool name_list_has(const fm_name_list *list, const char *name);
+
+#endif

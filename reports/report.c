@@ -1,0 +1,315 @@
+#include "report.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "case_table.h"
+#include "chart.h"
+#include "figure_charts.h"
+#include "group.h"
+#include "html.h"
+#include "page.h"
+#include "pictures.h"
+#include "speed_error.h"
+#include "svg_png.h"
+#include "table.h"
+
+static const double PNG_ZOOM = 2.0;
+enum { PAGE_PICTURES_BYTES = 64 << 20 }; /* more would make a page that phones cannot open */
+
+/* What is shared while one report is written. */
+typedef struct writer {
+    const fm_result_files *results;
+    fm_text page;
+    fm_report_outcome *outcome;
+    fm_error *err;
+} writer;
+
+static fm_status make_folder(const writer *to, const char *name)
+{
+    char path[1024];
+    snprintf(path, sizeof path, "%s/%s", to->results->directory, name);
+    if (mkdir(path, 0777) != 0 && errno != EEXIST)
+        return fm_fail(to->err, FM_IO, "%s: %s", path, strerror(errno));
+    return FM_OK;
+}
+
+/* The chart as files and in the page; FM_UNSUPPORTED becomes a sentence. Frees the chart. */
+static fm_status add_chart(writer *to, fm_chart *chart, fm_status status, const char *name)
+{
+    char *svg = NULL, path[1280];
+    const char *directory = to->results->directory;
+    if (status == FM_UNSUPPORTED) {
+        text_add(&to->page, "<p class=note>No chart: ");
+        html_add(&to->page, to->err->message);
+        text_add(&to->page, ".</p>\n");
+        chart_free(chart);
+        return FM_OK;
+    }
+    if (status == FM_OK)
+        status = chart_svg(&svg, chart, to->err);
+    chart_free(chart);
+    if (status != FM_OK)
+        return status;
+    snprintf(path, sizeof path, "%s/charts/%s.svg", directory, name);
+    status = text_write_file(path, svg, strlen(svg), to->err);
+    snprintf(path, sizeof path, "%s/charts/%s.png", directory, name);
+    if (status == FM_OK)
+        status = svg_png_write(path, svg, PNG_ZOOM, to->err);
+    text_add(&to->page,
+             "<div class=chart>%s</div>\n<p class=links><a href=\"charts/%s.svg\">SVG</a> "
+             "<a href=\"charts/%s.png\">PNG</a> <a href=\"summary.csv\">data</a></p>\n",
+             svg, name, name);
+    to->outcome->chart_count++;
+    free(svg);
+    return status;
+}
+
+static fm_status add_speed_error(writer *to, const fm_groups *groups)
+{
+    text_add(&to->page, "<h2 id=speed>Speed against error</h2>\n");
+    for (size_t i = 0; i < groups->count; i++) {
+        const fm_group *group = &groups->groups[i];
+        fm_chart chart;
+        char name[160];
+        text_add(&to->page, "<h3>");
+        html_add(&to->page, group->title);
+        text_add(&to->page, "</h3>\n<p class=faint>");
+        html_add(&to->page, group->workload);
+        text_add(&to->page, "</p>\n");
+        snprintf(name, sizeof name, "speed-error-%s", group->name);
+        fm_status status = speed_error_chart(&chart, group, to->err);
+        status = add_chart(to, &chart, status, name);
+        if (status != FM_OK)
+            return status;
+        case_table_add(&to->page, group);
+    }
+    if (groups->count == 0)
+        text_add(&to->page, "<p class=note>summary.csv has no case yet.</p>\n");
+    return FM_OK;
+}
+
+static fm_status add_figure_charts(writer *to, const fm_paper_figure *figure,
+                                   const fm_groups *groups)
+{
+    for (size_t i = 0; i < groups->count; i++)
+        for (size_t j = 0; j < figure->chart_count; j++) {
+            const fm_figure_chart *from = &figure->charts[j];
+            const fm_group *group = &groups->groups[i];
+            char name[256];
+            fm_chart chart;
+            snprintf(name, sizeof name, "%.60s-%.40s-%.120s", figure->id, from->id, group->name);
+            fm_status status = figure_chart_make(&chart, figure, from, to->results, group, to->err);
+            status = add_chart(to, &chart, status, name);
+            if (status != FM_OK)
+                return status;
+        }
+    return FM_OK;
+}
+
+static fm_status add_figure(writer *to, const fm_paper_figure *figure)
+{
+    fm_groups groups;
+    fm_status status = groups_make(&groups, to->results, figure_takes_case, figure, to->err);
+    if (status != FM_OK)
+        return status;
+    text_add(&to->page, "<h3>");
+    html_add(&to->page, figure->title);
+    text_add(&to->page, "</h3>\n<p class=faint>");
+    html_add(&to->page, figure->source);
+    text_add(&to->page, "</p>\n");
+    if (groups.count == 0)
+        text_add(&to->page, "<p class=note>No case of this run belongs to this figure.</p>\n");
+    status = add_figure_charts(to, figure, &groups);
+    groups_free(&groups);
+    if (figure->deviations.count == 0)
+        return status;
+    text_add(&to->page, "<p>Deviations:</p>\n<ul>\n");
+    for (size_t i = 0; i < figure->deviations.count; i++) {
+        text_add(&to->page, "<li>");
+        html_add(&to->page, figure->deviations.names[i]);
+        text_add(&to->page, "</li>\n");
+    }
+    text_add(&to->page, "</ul>\n");
+    return status;
+}
+
+static fm_status add_figures(writer *to, const fm_report_desc *desc)
+{
+    fm_status status = FM_OK;
+    text_add(&to->page, "<h2 id=figures>Figures of papers</h2>\n");
+    if (desc->figure_count == 0)
+        text_add(&to->page, "<p>None asked for. <code>fragmark list figures</code> names them, "
+                            "<code>fragmark reproduce ID</code> measures one.</p>\n");
+    for (size_t i = 0; i < desc->figure_count && status == FM_OK; i++)
+        status = add_figure(to, desc->figures[i]);
+    return status;
+}
+
+/* Any table of the directory as it is; absent: nothing. */
+static fm_status add_claims(writer *to)
+{
+    char path[1024];
+    fm_table *claims = NULL;
+    snprintf(path, sizeof path, "%s/claims.csv", to->results->directory);
+    if (access(path, F_OK) != 0)
+        return FM_OK;
+    fm_status status = table_read(&claims, path, to->err);
+    if (status != FM_OK)
+        return status;
+    text_add(&to->page, "<h3>Claims and verdicts</h3>\n<div class=table><table><thead><tr>");
+    for (size_t i = 0; i < claims->column_count; i++) {
+        text_add(&to->page, "<th>");
+        html_add(&to->page, claims->names[i]);
+        text_add(&to->page, "</th>");
+    }
+    text_add(&to->page, "</tr></thead><tbody>\n");
+    for (size_t row = 0; row < claims->row_count; row++) {
+        text_add(&to->page, "<tr>");
+        for (size_t i = 0; i < claims->column_count; i++) {
+            text_add(&to->page, "<td>");
+            html_add(&to->page, table_cell(claims, row, i));
+            text_add(&to->page, "</td>");
+        }
+        text_add(&to->page, "</tr>\n");
+    }
+    text_add(&to->page, "</tbody></table></div>\n");
+    table_close(claims);
+    return FM_OK;
+}
+
+/* One picture of a case, embedded while there is room, with links to its files. */
+static fm_status add_picture(writer *to, size_t *embedded, const char *id, const char *kind,
+                             const char *caption)
+{
+    char path[1280];
+    struct stat file;
+    fm_status status = FM_OK;
+    snprintf(path, sizeof path, "%s/images/%s%s.png", to->results->directory, id, kind);
+    if (stat(path, &file) != 0)
+        return fm_fail(to->err, FM_IO, "%s: %s", path, strerror(errno));
+    *embedded += (size_t)file.st_size;
+    text_add(&to->page, "<figure>");
+    if (*embedded <= PAGE_PICTURES_BYTES)
+        status = html_add_png(&to->page, path, caption, to->err);
+    text_add(&to->page, "<figcaption>%s (", caption);
+    text_add(&to->page,
+             "<a href=\"images/%s%s.png\">PNG</a>, <a href=\"images/%s%s.exr\">EXR</a>"
+             ")</figcaption></figure>\n",
+             id, kind, id, kind);
+    to->outcome->picture_count++;
+    return status;
+}
+
+static fm_status add_heat_scale(writer *to)
+{
+    char path[1280];
+    fm_status status = pictures_write_scale(to->results->directory, to->err);
+    if (status != FM_OK)
+        return status;
+    snprintf(path, sizeof path, "%s/images/heat-scale.png", to->results->directory);
+    text_add(&to->page, "<p>Pictures are shown over white. The heat map is the largest difference "
+                        "of a pixel over its four channels, on one scale for all cases; black is "
+                        "up to 1e-4.</p>\n<div class=scale>");
+    status = html_add_png(&to->page, path, "colour bar from 1e-4 to 1", to->err);
+    text_add(&to->page, "<div><span>1e-4</span><span>1e-3</span><span>0.01</span><span>0.1</span>"
+                        "<span>1</span></div></div>\n");
+    return status;
+}
+
+static fm_status add_case_pictures(writer *to, size_t *embedded, const fm_group *group,
+                                   const fm_case_row *result, const fm_picture_set *set)
+{
+    char title[96], caption[160];
+    fm_status status = FM_OK;
+    group_series_title(title, result);
+    text_add(&to->page, "<h3>");
+    html_add(&to->page, title);
+    if (group_uses_k(group, result))
+        text_add(&to->page, ", k = %.0f", result->k);
+    text_add(&to->page, " <span class=faint>");
+    html_add(&to->page, group->title);
+    text_add(&to->page, ", %s</span></h3>\n<div class=pictures>\n", result->status);
+    if (set->has_result)
+        status = add_picture(to, embedded, result->id, "", "result");
+    if (status == FM_OK && set->has_truth)
+        status = add_picture(to, embedded, result->id, ".truth", "truth");
+    if (status == FM_OK && set->has_result && set->has_truth) {
+        snprintf(caption, sizeof caption,
+                 "|difference|: at most %.3g; %.3g %% of pixels above 1e-4", set->max_difference,
+                 100.0 * set->worst_share);
+        status = add_picture(to, embedded, result->id, ".difference", caption);
+    }
+    text_add(&to->page, "</div>\n");
+    return status;
+}
+
+static fm_status add_pictures(writer *to, const fm_groups *groups)
+{
+    size_t embedded = 0, shown = 0;
+    text_add(&to->page, "<h2 id=pictures>Pictures</h2>\n");
+    for (size_t i = 0; i < groups->count; i++)
+        for (size_t j = 0; j < groups->groups[i].count; j++) {
+            const fm_case_row *result = groups->groups[i].cases[j];
+            fm_picture_set set;
+            fm_status status = pictures_write(&set, to->results->directory, result->id, to->err);
+            if (status == FM_OK && (set.has_result || set.has_truth) && shown++ == 0)
+                status = add_heat_scale(to);
+            if (status == FM_OK && (set.has_result || set.has_truth))
+                status = add_case_pictures(to, &embedded, &groups->groups[i], result, &set);
+            if (status != FM_OK)
+                return status;
+        }
+    if (shown == 0)
+        text_add(&to->page, "<p>This run kept no pictures.</p>\n");
+    if (embedded > PAGE_PICTURES_BYTES)
+        text_add(&to->page,
+                 "<p class=note>Only the first %d MiB of pictures are inside this page; "
+                 "all are in images/.</p>\n",
+                 PAGE_PICTURES_BYTES >> 20);
+    return FM_OK;
+}
+
+static fm_status write_sections(writer *to, const fm_report_desc *desc)
+{
+    fm_groups groups;
+    fm_status status = groups_make(&groups, to->results, NULL, NULL, to->err);
+    if (status != FM_OK)
+        return status;
+    page_begin(&to->page, to->results);
+    status = add_speed_error(to, &groups);
+    if (status == FM_OK)
+        status = add_figures(to, desc);
+    if (status == FM_OK)
+        status = add_claims(to);
+    if (status == FM_OK)
+        status = add_pictures(to, &groups);
+    page_add_notes(&to->page, to->results);
+    page_add_guide(&to->page);
+    page_add_machine(&to->page, to->results);
+    page_end(&to->page);
+    groups_free(&groups);
+    return status;
+}
+
+fm_status report_write(fm_report_outcome *outcome, const fm_report_desc *desc, fm_error *err)
+{
+    char path[1024];
+    writer to = { .results = desc->results, .outcome = outcome, .err = err };
+    *outcome = (fm_report_outcome){ 0 };
+    fm_status status = make_folder(&to, "charts");
+    if (status == FM_OK)
+        status = write_sections(&to, desc);
+    if (status == FM_OK && to.page.failed)
+        status = fm_fail(err, FM_NO_MEMORY, "report.html");
+    snprintf(path, sizeof path, "%s/report.html", desc->results->directory);
+    if (status == FM_OK)
+        status = text_write_file(path, to.page.bytes, to.page.length, err);
+    text_free(&to.page);
+    return status;
+}

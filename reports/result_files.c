@@ -1,0 +1,283 @@
+#include "result_files.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "stats.h"
+#include "text.h"
+
+#define TEXT(name, field)                                                                          \
+    {                                                                                              \
+        name, offsetof(fm_case_row, field), true                                                   \
+    }
+#define NUMBER(field)                                                                              \
+    {                                                                                              \
+#field, offsetof(fm_case_row, field), false                                                \
+    }
+
+static const struct {
+    const char *name;
+    size_t offset;
+    bool is_text;
+} columns[] = {
+    TEXT("case_id", id),
+    TEXT("status", status),
+    TEXT("message", message),
+    TEXT("method", method),
+    TEXT("feed", feed),
+    TEXT("method_version", method_version),
+    TEXT("device", device),
+    TEXT("device_name", device_name),
+    TEXT("scene", scene),
+    TEXT("order", order),
+    TEXT("seed", seed),
+    TEXT("options", options),
+    NUMBER(width_px),
+    NUMBER(height_px),
+    NUMBER(n),
+    NUMBER(k),
+    NUMBER(r),
+    NUMBER(pixel_density),
+    NUMBER(tessellation),
+    NUMBER(fragment_probability),
+    NUMBER(launches),
+    NUMBER(samples),
+    NUMBER(frame_ms),
+    NUMBER(frame_ms_low),
+    NUMBER(clear_ms),
+    NUMBER(frame_ms_high),
+    NUMBER(count_ms),
+    NUMBER(reference_ms),
+    NUMBER(store_ms),
+    NUMBER(resolve_ms),
+    NUMBER(times_floor),
+    NUMBER(bytes_allocated),
+    NUMBER(bytes_used),
+    NUMBER(bytes_predicted),
+    NUMBER(fragments_lost),
+    NUMBER(fragments_generated),
+    NUMBER(fragments_stored),
+    NUMBER(missing),
+    NUMBER(extra),
+    NUMBER(misordered),
+    NUMBER(depth_ulp_max),
+    NUMBER(rmse),
+    NUMBER(psnr_db),
+    NUMBER(max_abs),
+    NUMBER(ssim),
+    NUMBER(flip),
+    NUMBER(truncation_rmse),
+    NUMBER(distinct_images),
+    NUMBER(frame_wall_ms),
+    NUMBER(fragments_per_s),
+};
+enum { COLUMN_COUNT = sizeof columns / sizeof columns[0] };
+
+static const char *const statuses[] = {
+    "ok",          "not_supported", "wrong_image", "crash", "timeout", "out_of_memory",
+    "device_lost", "plugin_error",  "skipped",
+};
+
+static fm_status need_column(size_t *column, const fm_table *table, const char *name, fm_error *err)
+{
+    *column = table_column(table, name);
+    if (*column != FM_TABLE_NO_COLUMN)
+        return FM_OK;
+    const char *nearest = text_nearest(name, table->names, table->column_count);
+    return fm_fail(err, FM_INVALID, "%s:1: no column \"%s\"%s%s%s", table->path, name,
+                   nearest == NULL ? "" : " (there is \"", nearest == NULL ? "" : nearest,
+                   nearest == NULL ? "" : "\")");
+}
+
+static fm_status check_case(const fm_result_files *results, size_t row, fm_error *err)
+{
+    const fm_case_row *result = &results->cases[row];
+    const char *path = results->summary->path;
+    uint32_t line = results->summary->lines[row];
+    for (size_t i = 0; i < sizeof statuses / sizeof statuses[0]; i++)
+        if (strcmp(statuses[i], result->status) == 0)
+            goto known;
+    return fm_fail(err, FM_INVALID, "%s:%u: status \"%.40s\" is none of ok, not_supported, ...",
+                   path, line, result->status);
+known:
+    if (result->id[0] == '\0' || strlen(result->id) > 64 || strchr(result->id, '/') != NULL)
+        return fm_fail(err, FM_INVALID, "%s:%u: case_id \"%.80s\" is not an id", path, line,
+                       result->id);
+    if (result->method[0] == '\0')
+        return fm_fail(err, FM_INVALID, "%s:%u: no method", path, line);
+    return FM_OK;
+}
+
+static void add_look(fm_case_row *result, const fm_provenance *manifest)
+{
+    const fm_method_info *info = provenance_method(manifest, result->method);
+    const fm_device_info *device = provenance_device(manifest, result->device, result->device_name);
+    if (info != NULL)
+        result->look = *info;
+    else
+        result->look = (fm_method_info){
+            .id = result->method, .title = result->method, .citation = "", .version = ""
+        };
+    result->is_ok = strcmp(result->status, "ok") == 0;
+    result->is_measured = (result->is_ok || strcmp(result->status, "wrong_image") == 0) &&
+                          isfinite(result->frame_ms) && result->frame_ms > 0.0;
+    result->is_software = device != NULL && device->is_software;
+    result->total_rmse = result->rmse;
+}
+
+static fm_status read_cases(fm_result_files *results, fm_error *err)
+{
+    const fm_table *table = results->summary;
+    size_t index[COLUMN_COUNT];
+    for (size_t i = 0; i < COLUMN_COUNT; i++) {
+        fm_status status = need_column(&index[i], table, columns[i].name, err);
+        if (status != FM_OK)
+            return status;
+    }
+    results->cases = calloc(table->row_count + 1, sizeof *results->cases);
+    if (results->cases == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "%s: %zu cases", table->path, table->row_count);
+    for (size_t row = 0; row < table->row_count; row++) {
+        char *result = (char *)&results->cases[row];
+        for (size_t i = 0; i < COLUMN_COUNT; i++) {
+            void *field = result + columns[i].offset;
+            fm_status status = FM_OK;
+            if (columns[i].is_text)
+                *(const char **)field = table_cell(table, row, index[i]);
+            else
+                status = table_number(field, table, row, index[i], err);
+            if (status != FM_OK)
+                return status;
+        }
+        add_look(&results->cases[row], results->manifest);
+        fm_status status = check_case(results, row, err);
+        if (status != FM_OK)
+            return status;
+    }
+    results->count = table->row_count;
+    return FM_OK;
+}
+
+static uint32_t find_case(const fm_result_files *results, const char *id, uint32_t guess)
+{
+    if (guess < results->count && strcmp(results->cases[guess].id, id) == 0)
+        return guess; /* rows of a case follow one another */
+    for (uint32_t i = 0; i < results->count; i++)
+        if (strcmp(results->cases[i].id, id) == 0)
+            return i;
+    return UINT32_MAX; /* a case that has no row yet, of a run that was stopped */
+}
+
+static fm_status read_samples(fm_result_files *results, fm_error *err)
+{
+    const fm_table *table = results->samples;
+    size_t id = 0, launch = 0, value = 0;
+    fm_status status = need_column(&id, table, "case_id", err);
+    if (status == FM_OK)
+        status = need_column(&launch, table, "launch", err);
+    if (status == FM_OK)
+        status = need_column(&results->sample_metric, table, "metric", err);
+    if (status == FM_OK)
+        status = need_column(&value, table, "value", err);
+    if (status != FM_OK)
+        return status;
+    results->sample_case = calloc(table->row_count + 1, sizeof *results->sample_case);
+    results->sample_value = calloc(table->row_count + 1, sizeof *results->sample_value);
+    if (results->sample_case == NULL || results->sample_value == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "%s: %zu rows", table->path, table->row_count);
+    uint32_t at = 0;
+    for (size_t row = 0; row < table->row_count; row++) {
+        status = table_number(&results->sample_value[row], table, row, value, err);
+        if (status != FM_OK)
+            return status;
+        uint32_t found = find_case(results, table_cell(table, row, id), at);
+        results->sample_case[row] = found;
+        if (found == UINT32_MAX)
+            continue;
+        at = found;
+        if (table_cell(table, row, launch)[0] == '\0' &&
+            strcmp(table_cell(table, row, results->sample_metric), "total_rmse") == 0)
+            results->cases[found].total_rmse = results->sample_value[row];
+    }
+    return FM_OK;
+}
+
+static fm_status read_table(fm_table **table, const char *directory, const char *name,
+                            fm_error *err)
+{
+    char path[1024];
+    snprintf(path, sizeof path, "%s/%s", directory, name);
+    return table_read(table, path, err);
+}
+
+fm_status result_files_read(fm_result_files **results, const char *directory, fm_error *err)
+{
+    char path[1024];
+    *results = NULL;
+    fm_result_files *made = calloc(1, sizeof *made);
+    if (made == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "%s", directory);
+    made->directory = directory;
+    snprintf(path, sizeof path, "%s/manifest.json", directory);
+    fm_status status = provenance_read(&made->manifest, path, err);
+    if (status == FM_OK)
+        status = read_table(&made->summary, directory, "summary.csv", err);
+    if (status == FM_OK)
+        status = read_table(&made->samples, directory, "samples.csv", err);
+    if (status == FM_OK)
+        status = read_cases(made, err);
+    if (status == FM_OK)
+        status = read_samples(made, err);
+    if (status != FM_OK) {
+        result_files_close(made);
+        return status;
+    }
+    *results = made;
+    return FM_OK;
+}
+
+void result_files_close(fm_result_files *results)
+{
+    if (results == NULL)
+        return;
+    free(results->sample_case);
+    free(results->sample_value);
+    free(results->cases);
+    table_close(results->samples);
+    table_close(results->summary);
+    provenance_close(results->manifest);
+    free(results);
+}
+
+/* Median of a case's samples of one metric. */
+static double sample_median(const fm_result_files *results, size_t case_index, const char *name)
+{
+    const fm_table *table = results->samples;
+    size_t count = 0;
+    double median = NAN;
+    double *values = calloc(table->row_count + 1, sizeof *values);
+    if (values == NULL)
+        return NAN;
+    for (size_t row = 0; row < table->row_count; row++)
+        if (results->sample_case[row] == case_index &&
+            strcmp(table_cell(table, row, results->sample_metric), name) == 0 &&
+            isfinite(results->sample_value[row]))
+            values[count++] = results->sample_value[row];
+    if (count > 0)
+        median = stats_median(values, count);
+    free(values);
+    return median;
+}
+
+double result_files_metric(const fm_result_files *results, const fm_case_row *result,
+                           const char *name)
+{
+    if (strcmp(name, "total_rmse") == 0)
+        return result->total_rmse;
+    for (size_t i = 0; i < COLUMN_COUNT; i++)
+        if (!columns[i].is_text && strcmp(columns[i].name, name) == 0)
+            return *(const double *)(const void *)((const char *)result + columns[i].offset);
+    return sample_median(results, (size_t)(result - results->cases), name);
+}

@@ -1,0 +1,51 @@
+/* The result files of one directory, read and checked: manifest.json, summary.csv, samples.csv. */
+#ifndef FM_RESULT_FILES_H
+#define FM_RESULT_FILES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "error.h"
+#include "provenance.h"
+#include "table.h"
+
+/* One row of summary.csv. Numbers are NAN where the cell is empty. */
+typedef struct fm_case_row {
+    const char *id, *status, *message, *method, *method_version, *device, *device_name, *feed;
+    const char *scene, *order, *seed, *options;
+    double width_px, height_px, n, k, r, pixel_density, fragment_probability, tessellation;
+    double launches, samples, frame_ms, frame_ms_low, frame_ms_high;
+    double clear_ms, count_ms, reference_ms, store_ms, resolve_ms, times_floor;
+    double bytes_allocated, bytes_predicted, bytes_used;
+    double fragments_generated, fragments_stored, fragments_lost, missing, extra, misordered;
+    double depth_ulp_max, rmse, psnr_db, max_abs, ssim, flip, truncation_rmse, distinct_images;
+    double frame_wall_ms, fragments_per_s;
+    double total_rmse; /* from samples.csv; rmse where the run has none */
+    fm_method_info look;
+    bool is_ok;
+    bool is_measured; /* has a time, and its error: ok, or wrong_image */
+    bool is_software; /* the device */
+} fm_case_row;
+
+typedef struct fm_result_files {
+    const char *directory; /* borrowed */
+    fm_provenance *manifest;
+    fm_table *summary, *samples;
+    fm_case_row *cases;
+    size_t count;
+    uint32_t *sample_case; /* [samples->row_count]: index into cases; UINT32_MAX: none */
+    double *sample_value;  /* [samples->row_count] */
+    size_t sample_metric;  /* column */
+} fm_result_files;
+
+/* FM_IO: a file cannot be read. FM_INVALID: damaged, naming file and line. The caller closes. */
+fm_status result_files_read(fm_result_files **results, const char *directory, fm_error *err);
+void result_files_close(fm_result_files *results);
+
+/* Any metric of a case: a column of summary.csv, else the median of its samples of that name; NAN
+ * when there is none. */
+double result_files_metric(const fm_result_files *results, const fm_case_row *result,
+                           const char *name);
+
+#endif

@@ -1,0 +1,248 @@
+#include "speed_error.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double PLOT_WIDTH_PX = 620, PLOT_HEIGHT_PX = 400;
+static const double MARKER_LEAST_PX = 8, MARKER_MOST_PX = 22;
+static const fm_colour FRONTIER_GREY = { 150, 150, 150 };
+
+static double error_of(const fm_case_row *result)
+{
+    return result->total_rmse <= FM_EXACT_RMSE ? 0.0 : result->total_rmse;
+}
+
+static bool has_point(const fm_case_row *result)
+{
+    return result->is_measured && isfinite(result->total_rmse);
+}
+
+static bool is_candidate(const fm_case_row *result)
+{
+    return result->is_ok && has_point(result) && !result->look.is_control;
+}
+
+void speed_error_frontier(bool *on, const fm_group *group)
+{
+    for (size_t i = 0; i < group->count; i++) {
+        const fm_case_row *one = group->cases[i];
+        on[i] = is_candidate(one);
+        for (size_t j = 0; j < group->count && on[i]; j++) {
+            const fm_case_row *other = group->cases[j];
+            if (!is_candidate(other))
+                continue;
+            bool as_good = other->frame_ms <= one->frame_ms && error_of(other) <= error_of(one);
+            bool better = other->frame_ms < one->frame_ms || error_of(other) < error_of(one);
+            on[i] = !(as_good && better);
+        }
+    }
+}
+
+static int compare_points(const void *a, const void *b)
+{
+    const fm_point *p = a, *q = b;
+    return (p->x > q->x) - (p->x < q->x);
+}
+
+/* Stairs: between two points of the frontier the earlier one is the best there is. */
+static void add_frontier(fm_chart *chart, const fm_group *group, bool *on)
+{
+    fm_series *stairs = chart_add_series(chart, 2 * group->count);
+    if (stairs == NULL)
+        return;
+    speed_error_frontier(on, group);
+    size_t count = 0;
+    for (size_t i = 0; i < group->count; i++)
+        if (on[i])
+            stairs->points[count++] = (fm_point){ .x = error_of(group->cases[i]),
+                                                  .y = group->cases[i]->frame_ms,
+                                                  .low = NAN,
+                                                  .high = NAN };
+    if (count < 2)
+        return;
+    qsort(stairs->points, count, sizeof stairs->points[0], compare_points);
+    for (size_t i = count; i-- > 1;) {
+        stairs->points[2 * i] = stairs->points[i];
+        stairs->points[2 * i - 1] = stairs->points[i];
+        stairs->points[2 * i - 1].y = stairs->points[i - 1].y;
+    }
+    stairs->point_count = 2 * count - 1;
+    stairs->colour = FRONTIER_GREY;
+    stairs->stroke = FM_STROKE_SOLID;
+    stairs->width_px = 5;
+    snprintf(stairs->label, sizeof stairs->label, "Pareto frontier");
+}
+
+static double marker_px(const fm_case_row *result, double bytes_most)
+{
+    if (!(result->bytes_allocated > 0.0) || !(bytes_most > 0.0))
+        return MARKER_LEAST_PX;
+    return MARKER_LEAST_PX +
+           (MARKER_MOST_PX - MARKER_LEAST_PX) * sqrt(result->bytes_allocated / bytes_most);
+}
+
+/* The points of one method with one status: solid when ok, hollow when not. */
+static void add_method(fm_chart *chart, const fm_group *group, size_t first, bool is_ok,
+                       double bytes_most)
+{
+    const fm_case_row *one = group->cases[first];
+    fm_series *series = chart_add_series(chart, group->count);
+    if (series == NULL)
+        return;
+    char title[96];
+    group_series_title(title, one);
+    for (size_t i = first; i < group->count && group_same_series(group->cases[i], one); i++) {
+        const fm_case_row *result = group->cases[i];
+        if (has_point(result) && result->is_ok == is_ok)
+            series->points[series->point_count++] = (fm_point){
+                .x = error_of(result),
+                .y = result->frame_ms,
+                .low = result->frame_ms_low,
+                .high = result->frame_ms_high,
+                .size_px = marker_px(result, bytes_most),
+            };
+    }
+    if (series->point_count == 0)
+        return;
+    snprintf(series->label, sizeof series->label, "%.80s%s", title, is_ok ? "" : " (not ok)");
+    series->colour = look_family_colour(one->look.family);
+    series->marker = one->look.marker;
+    series->has_marker = true;
+    series->hollow = !is_ok;
+    series->stroke = !is_ok                ? FM_STROKE_NONE
+                     : one->look.is_dashed ? FM_STROKE_DASHED
+                                           : FM_STROKE_SOLID;
+    series->width_px = 1.1;
+}
+
+typedef struct box {
+    double x0, y0, x1, y1;
+} box;
+
+static bool boxes_touch(const box *a, const box *b)
+{
+    return a->x0 < b->x1 && b->x0 < a->x1 && a->y0 < b->y1 && b->y0 < a->y1;
+}
+
+/* "k = 8" beside a point, where it covers no other text and no marker; else nowhere. */
+static void add_label(fm_chart *chart, box *taken, size_t *taken_count, double x, double y,
+                      double size_px, const char *text)
+{
+    double width = chart_text_width_px(text, 10), off = size_px / 2 + 3;
+    const double shifts[][2] = {
+        { off, -4 },      { -off - width, -4 },     { -width / 2, off },
+        { off, off - 4 }, { -width / 2, -off - 9 },
+    };
+    for (size_t i = 0; i < sizeof shifts / sizeof shifts[0]; i++) {
+        box here = { x + shifts[i][0], y + shifts[i][1], 0, 0 };
+        here.x1 = here.x0 + width;
+        here.y1 = here.y0 + 10;
+        bool is_free = here.x0 > 2 && here.y0 > 2 && here.x1 < chart->x.length_px - 2 &&
+                       here.y1 < chart->y.length_px - 2;
+        for (size_t j = 0; j < *taken_count && is_free; j++)
+            is_free = !boxes_touch(&here, &taken[j]);
+        fm_label *label = is_free ? chart_add_label(chart) : NULL;
+        if (label == NULL)
+            continue;
+        *label = (fm_label){ .x_px = here.x0, .y_px = here.y0, .size_px = 10 };
+        snprintf(label->text, sizeof label->text, "%s", text);
+        taken[(*taken_count)++] = here;
+        return;
+    }
+}
+
+static void add_labels(fm_chart *chart, const fm_group *group, box *taken, double bytes_most)
+{
+    size_t taken_count = 0;
+    for (size_t i = 0; i < group->count; i++) {
+        const fm_case_row *result = group->cases[i];
+        if (!has_point(result))
+            continue;
+        double x = axis_position(&chart->x, error_of(result)),
+               half = marker_px(result, bytes_most) / 2;
+        double y = axis_position(&chart->y, result->frame_ms);
+        taken[taken_count++] = (box){ x - half, y - half, x + half, y + half };
+    }
+    for (size_t i = 0; i < group->count; i++) {
+        const fm_case_row *result = group->cases[i];
+        if (!has_point(result) || !group_uses_k(group, result))
+            continue;
+        char text[24];
+        snprintf(text, sizeof text, "k=%.0f", result->k);
+        add_label(chart, taken, &taken_count, axis_position(&chart->x, error_of(result)),
+                  axis_position(&chart->y, result->frame_ms), marker_px(result, bytes_most), text);
+    }
+}
+
+/* Axes from what will be drawn; returns how many points there are. */
+static size_t fit_axes(fm_chart *chart, const fm_group *group, double *values)
+{
+    size_t points = 0, times = 0;
+    for (size_t i = 0; i < group->count; i++)
+        if (has_point(group->cases[i]))
+            values[points++] = error_of(group->cases[i]);
+    chart->x = (fm_axis){ .title = "error: RMSE against the picture of all fragments",
+                          .scale = FM_SCALE_LOG,
+                          .zero_below = FM_EXACT_RMSE,
+                          .length_px = PLOT_WIDTH_PX };
+    axis_fit(&chart->x, values, points);
+    for (size_t i = 0; i < group->count; i++)
+        if (has_point(group->cases[i])) {
+            values[times++] = group->cases[i]->frame_ms;
+            values[times++] = group->cases[i]->frame_ms_low;
+            values[times++] = group->cases[i]->frame_ms_high;
+        }
+    chart->y =
+        (fm_axis){ .title = "frame time [ms]", .scale = FM_SCALE_LOG, .length_px = PLOT_HEIGHT_PX };
+    axis_fit(&chart->y, values, times);
+    return points;
+}
+
+static double most_bytes(const fm_group *group)
+{
+    double most = 0.0;
+    for (size_t i = 0; i < group->count; i++)
+        if (has_point(group->cases[i]) && group->cases[i]->bytes_allocated > most)
+            most = group->cases[i]->bytes_allocated;
+    return most;
+}
+
+fm_status speed_error_chart(fm_chart *chart, const fm_group *group, fm_error *err)
+{
+    fm_status status = FM_OK;
+    *chart = (fm_chart){ 0 };
+    double bytes_most = most_bytes(group);
+    double *values = calloc(3 * group->count + 1, sizeof *values);
+    bool *on = calloc(group->count + 1, sizeof *on);
+    box *taken = calloc(2 * group->count + 1, sizeof *taken);
+    if (values == NULL || on == NULL || taken == NULL) {
+        status = fm_fail(err, FM_NO_MEMORY, "chart of %s", group->title);
+        goto out;
+    }
+    if (fit_axes(chart, group, values) == 0) {
+        status = fm_fail(err, FM_UNSUPPORTED, "%s: no case has a time and an error", group->title);
+        goto out;
+    }
+    snprintf(chart->title, sizeof chart->title, "Speed against error: %.120s", group->title);
+    snprintf(chart->subtitle, sizeof chart->subtitle, "%s", group->workload);
+    add_frontier(chart, group, on);
+    for (size_t i = 0; i < group->count; i++) {
+        if (i > 0 && group_same_series(group->cases[i - 1], group->cases[i]))
+            continue;
+        add_method(chart, group, i, true, bytes_most);
+        add_method(chart, group, i, false, bytes_most);
+    }
+    add_labels(chart, group, taken, bytes_most);
+    snprintf(chart->notes[0], sizeof chart->notes[0], "lower left is better");
+    snprintf(chart->notes[1], sizeof chart->notes[1], "bars: 95 %% intervals");
+    snprintf(chart->notes[2], sizeof chart->notes[2], "marker area: memory,");
+    snprintf(chart->notes[3], sizeof chart->notes[3], "the largest is %.4g MiB",
+             bytes_most / 1048576.0);
+out:
+    free(values);
+    free(on);
+    free(taken);
+    return status;
+}
