@@ -140,7 +140,7 @@ fm_status camera_matrix(double clip_from_world[16], const fm_settings *settings,
                         fm_error *err)
 {
     view v;
-    lens l;
+    lens l = { 0 };
     view_set(&v, &l, settings, box);
     const fm_status status = planes_set(&l, &v, settings, box, err);
     if (status != FM_OK)

@@ -296,7 +296,7 @@ static fm_status pass_source(fm_text *text, const built_pass *built, const fm_in
     if (!built->is_drawn)
         text_add(text, "layout(local_size_x = %d) in;\n", GROUP_SIZE);
     define_all(text, instance, pass);
-    shader_declare(text, built->uses + skipped, built->use_count - skipped);
+    shader_declare(text, built->uses + skipped, built->use_count - skipped, "pass");
     if (built->is_drawn)
         add_fragment_interface(text, instance, pass);
     return add_body(text, instance, pass, built->is_drawn, err);

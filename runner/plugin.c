@@ -22,11 +22,11 @@ static fm_status set_paths(fm_plugin *plugin, const char *path, fm_error *err)
     const int length = snprintf(plugin->path, sizeof plugin->path, "%s%s", prefix, path);
     if (length < 0 || (size_t)length >= sizeof plugin->path)
         return fm_fail(err, FM_INVALID, "%s: path too long", path);
-    const size_t folder_length = (size_t)(file_of(plugin->path) - plugin->path) - 1;
-    memcpy(plugin->folder, plugin->path, folder_length);
-    plugin->folder[folder_length] = '\0';
-    if (folder_length == 0)
-        memcpy(plugin->folder, "/.", 3);
+    const int folder_length = (int)(strrchr(plugin->path, '/') - plugin->path);
+    if (folder_length > 0)
+        snprintf(plugin->folder, sizeof plugin->folder, "%.*s", folder_length, plugin->path);
+    else
+        snprintf(plugin->folder, sizeof plugin->folder, "/.");
     return FM_OK;
 }
 

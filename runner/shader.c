@@ -119,7 +119,7 @@ static void declare_storage_image(fm_text *text, const fm_use *use)
 }
 
 /* Lines of the table that the pass needs, in order: std140 wants rising offsets. */
-static void declare_table(fm_text *text, const fm_use *uses, size_t count)
+static void declare_table(fm_text *text, const fm_use *uses, size_t count, const char *part)
 {
     fm_text lines = { 0 };
     for (uint32_t line = 0; line < FM_MAX_BINDINGS; line++) {
@@ -135,12 +135,12 @@ static void declare_table(fm_text *text, const fm_use *uses, size_t count)
         }
     }
     if (lines.length > 0)
-        text_add(text, "layout(std140, binding = %d) uniform fm_table_block {\n%s};\n",
-                 SHADER_BINDING_TABLE, lines.bytes);
+        text_add(text, "layout(std140, binding = %d) uniform fm_table_%s {\n%s};\n",
+                 SHADER_BINDING_TABLE, part, lines.bytes);
     text_free(&lines);
 }
 
-void shader_declare(fm_text *text, const fm_use *uses, size_t count)
+void shader_declare(fm_text *text, const fm_use *uses, size_t count, const char *part)
 {
     text_add(text,
              "layout(std140, binding = %d) uniform fm_params_block {\n"
@@ -152,7 +152,7 @@ void shader_declare(fm_text *text, const fm_use *uses, size_t count)
                      "layout(buffer_reference, std430, buffer_reference_align = 16) %sbuffer "
                      "fm_reference_%s { %s items[]; };\n",
                      qualifier(&uses[i]), uses[i].slot->name, uses[i].slot->type);
-    declare_table(text, uses, count);
+    declare_table(text, uses, count, part);
     for (size_t i = 0; i < count; i++) {
         if (uses[i].slot->format == FM_FORMAT_NONE)
             declare_buffer(text, &uses[i]);

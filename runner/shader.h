@@ -58,8 +58,9 @@ typedef struct fm_shader_folders {
 /* #version, extensions and what depends on the device alone. */
 void shader_begin(fm_text *text, const fm_device_caps *caps, bool any_address, bool has_interlock);
 void shader_define(fm_text *text, const char *name, uint64_t value);
-/* Parameter block, table block and the declaration of each used resource. */
-void shader_declare(fm_text *text, const fm_use *uses, size_t count);
+/* Parameter block, table block and the declaration of each used resource. part names the shader's
+ * stage: OpenGL takes blocks of one name in two stages for one block, which must then be equal. */
+void shader_declare(fm_text *text, const fm_use *uses, size_t count, const char *part);
 /* Adds a file with its #include "file" lines expanded. "common/x.glsl" is the runner's, "x.glsl"
  * the method's, "other/x.glsl" another method's. FM_IO, FM_INVALID: missing, too large, nested too
  * deep. */

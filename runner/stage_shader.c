@@ -69,7 +69,7 @@ fm_status stage_vertex_shader(fm_text *text, const fm_use *uses, size_t use_coun
         any_address = any_address || uses[i].slot->by_address;
     shader_begin(text, &stage->device->caps, any_address, false);
     stage_define(text, stage, is_flat);
-    shader_declare(text, uses, use_count);
+    shader_declare(text, uses, use_count, "vertex");
     fm_status status = FM_OK;
     if (is_layers(stage))
         status = shader_add_file(text, folders, "common/layers.glsl", err);

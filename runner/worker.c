@@ -264,7 +264,7 @@ static const char *status_word(const launch_job *job, fm_status status)
 static bool is_wrong(launch_job *job)
 {
     const fm_measurement *m = &job->measurement;
-    if ((job->method->method->traits & FM_TRAIT_EXACT) == 0 || !m->is_checked)
+    if (!m->is_checked || (job->method->method->traits & FM_TRAIT_EXACT) == 0)
         return false;
     if (m->check.missing + m->check.extra + m->check.misordered + m->lost > 0) {
         fm_fail(&job->error, FM_OK,
