@@ -40,7 +40,7 @@ namespace
 {
 
 constexpr int DPI = 72; // a point is a pixel
-constexpr float LEFT_PX = 84, TOP_PX = 62, BOTTOM_PX = 62, LEGEND_GAP_PX = 22, EDGE_PX = 14;
+constexpr float LEFT_PX = 74, TOP_PX = 62, BOTTOM_PX = 62, LEGEND_GAP_PX = 22, EDGE_PX = 14;
 constexpr float LEGEND_SYMBOL_PX = 34, LEGEND_ROW_PX = 21;
 constexpr int TEXT_PX = 12, SMALL_PX = 11, TITLE_PX = 15;
 constexpr double MARKER_PX = 9, LINE_PX = 1.6;

@@ -94,6 +94,26 @@ static void style_series(fm_series *series, const fm_method_info *look)
     series->stroke = look->is_dashed ? FM_STROKE_DASHED : FM_STROKE_SOLID;
 }
 
+static void label_ours(fm_series *series, const fm_case_row *one)
+{
+    char title[96];
+    if (series->point_count == 0)
+        return;
+    group_series_title(title, one);
+    snprintf(series->label, sizeof series->label, "%.76s%s", title,
+             one->is_ok ? "" : " (wrong image)");
+}
+
+/* One measurement drawn across all x: markers at the ends, one interval. */
+static void level_line(fm_series *series)
+{
+    if (series->point_count < 2)
+        return;
+    series->points[1] = series->points[series->point_count - 1];
+    series->points[1].low = series->points[1].high = NAN;
+    series->point_count = 2;
+}
+
 /* Our points of the series that starts at case `first`, at x's own, or level at all others' x. */
 static void add_ours(job *at, size_t first, const double *xs, size_t x_count)
 {
@@ -114,14 +134,9 @@ static void add_ours(job *at, size_t first, const double *xs, size_t x_count)
             series->point_count++;
         }
     }
-    if (series->point_count > 0)
-        group_series_title(series->label, one);
-    if (is_level(at, one) && at->from->ratio_to == NULL && series->point_count > 1) {
-        /* One measurement: one interval is enough, the line tells the rest. */
-        series->has_marker = false;
-        for (size_t i = 1; i < series->point_count; i++)
-            series->points[i].low = series->points[i].high = NAN;
-    }
+    label_ours(series, one);
+    if (is_level(at, one) && at->from->ratio_to == NULL)
+        level_line(series);
 }
 
 static double paper_value(const fm_paper_figure *figure, const char *method, double x)
@@ -146,7 +161,8 @@ static void add_paper(job *at)
     const fm_paper_figure *figure = at->figure;
     for (size_t i = 0; i < figure->point_count; i++) {
         const fm_paper_point *first = &figure->points[i];
-        if (i > 0 && strcmp(first[-1].method, first->method) == 0)
+        bool is_base = strcmp(first->method, at->from->ratio_to) == 0; /* 1 by definition */
+        if (is_base || (i > 0 && strcmp(first[-1].method, first->method) == 0))
             continue;
         fm_series *series = chart_add_series(at->chart, figure->point_count);
         if (series == NULL)
@@ -336,7 +352,7 @@ static void add_cluster(job *at, bar_place *place, double x, bool level)
 static void add_part_keys(job *at)
 {
     for (size_t i = at->from->parts.count + 1; i-- > 0;) {
-        bool is_used = i < at->from->parts.count;
+        bool is_used = false;
         fm_colour colour = look_part_colour(i);
         for (size_t j = 0; j < at->chart->bar_count && !is_used; j++)
             is_used = memcmp(&at->chart->bars[j].colour, &colour, sizeof colour) == 0;

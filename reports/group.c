@@ -86,7 +86,9 @@ static int compare_cases(const void *a, const void *b)
 {
     const fm_case_row *x = *(const fm_case_row *const *)a;
     const fm_case_row *y = *(const fm_case_row *const *)b;
-    int order = (int)x->look.family - (int)y->look.family;
+    int order = (int)x->look.is_control - (int)y->look.is_control;
+    if (order == 0)
+        order = (int)x->look.family - (int)y->look.family;
     if (order == 0)
         order = strcmp(x->method, y->method);
     if (order == 0)
@@ -103,10 +105,22 @@ static void add_number(char *text, size_t room, const char *name, double value)
         snprintf(text + used, room - used, ", %s %.6g", name, value);
 }
 
+/* Procedural scenes with the printed properties of models that the papers do not share. */
+static bool is_stand_in(const char *scene)
+{
+    static const char *const names[] = { "bunny-in-cube", "palace", "hairball", "hotel",
+                                         "ivy",           "engine", "temple" };
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        if (strcmp(scene, names[i]) == 0)
+            return true;
+    return false;
+}
+
 static void describe(fm_group *group)
 {
     const fm_case_row *one = group->cases[0];
-    snprintf(group->title, sizeof group->title, "%.60s, %.60s, %.30s", one->scene,
+    snprintf(group->title, sizeof group->title, "%s%.60s, %.50s, %.30s",
+             is_stand_in(one->scene) ? "stand-in for " : "", one->scene,
              one->device_name[0] != '\0' ? one->device_name : one->device, one->feed);
     snprintf(group->workload, sizeof group->workload, "%.0f x %.0f pixels", one->width_px,
              one->height_px);

@@ -5,7 +5,7 @@
 #include "result_files.h"
 
 typedef struct fm_group {
-    const fm_case_row **cases; /* by method in order of appearance, then k, then options; owned */
+    const fm_case_row **cases; /* by family, method, options, k; controls last; owned */
     size_t count;
     char name[128];     /* of the group in file names: "layers-vulkan-raster", unique in a list */
     char title[160];    /* "layers, llvmpipe, raster" */

@@ -6,8 +6,8 @@
 #include <string.h>
 
 static const double PLOT_WIDTH_PX = 620, PLOT_HEIGHT_PX = 400;
-static const double MARKER_LEAST_PX = 8, MARKER_MOST_PX = 22;
-static const fm_colour FRONTIER_GREY = { 150, 150, 150 };
+static const double MARKER_LEAST_PX = 8, MARKER_MOST_PX = 19;
+static const fm_colour FRONTIER_GREY = { 205, 205, 205 };
 
 static double error_of(const fm_case_row *result)
 {
@@ -106,7 +106,7 @@ static void add_method(fm_chart *chart, const fm_group *group, size_t first, boo
     }
     if (series->point_count == 0)
         return;
-    snprintf(series->label, sizeof series->label, "%.80s%s", title, is_ok ? "" : " (not ok)");
+    snprintf(series->label, sizeof series->label, "%.76s%s", title, is_ok ? "" : " (wrong image)");
     series->colour = look_family_colour(one->look.family);
     series->marker = one->look.marker;
     series->has_marker = true;
