@@ -1,7 +1,6 @@
 #include "camera.h"
 
 #include <math.h>
-#include <string.h>
 
 typedef struct vec3 {
     double x, y, z;
@@ -93,13 +92,14 @@ static void fit_eye(view *v, const lens *l, const fm_box *box)
 
 static void view_set(view *v, lens *l, const fm_settings *s, const fm_box *box)
 {
-    const bool is_fitted = memcmp(s->eye, s->target, sizeof s->eye) == 0;
+    const vec3 back = minus(vec3_of(s->eye), vec3_of(s->target));
+    const bool is_fitted = !(dot(back, back) > 0.0);
     const vec3 three_quarter = { 0.6, 0.45, 1.0 };
     const double degree = 3.14159265358979323846 / 180.0;
     l->scale_y = 1.0 / tan(0.5 * s->fov_deg * degree);
     l->scale_x = l->scale_y * s->height_px / s->width_px;
     v->eye = vec3_of(s->eye);
-    frame_along(v, is_fitted ? three_quarter : minus(v->eye, vec3_of(s->target)), vec3_of(s->up));
+    frame_along(v, is_fitted ? three_quarter : back, vec3_of(s->up));
     if (!is_fitted)
         return;
     fit_eye(v, l, box);

@@ -147,7 +147,7 @@ static fm_status read_header(uint32_t size_px[2], FILE *file, const char *path, 
 
 fm_status image_read(fm_image **image, const char *path, fm_error *err)
 {
-    uint32_t size_px[2];
+    uint32_t size_px[2] = { 0 };
     fm_image *made = NULL;
     *image = NULL;
     FILE *file = fopen(path, "rb");
@@ -157,7 +157,7 @@ fm_status image_read(fm_image **image, const char *path, fm_error *err)
     if (status != FM_OK)
         goto out;
     status = image_create(&made, size_px[0], size_px[1], err);
-    if (status != FM_OK)
+    if (made == NULL)
         goto out;
     if (fread(made->rgba, BYTES_PER_PIXEL, pixel_count(made), file) != pixel_count(made)) {
         status = fm_fail(err, FM_IO, "%s: ends before its last pixel", path);

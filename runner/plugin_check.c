@@ -56,6 +56,13 @@ bool check_is_word(const char *name, const char *others)
     return true;
 }
 
+void check_fold_hyphens(char *name)
+{
+    for (; *name != '\0'; name++)
+        if (*name == '-')
+            *name = '_';
+}
+
 bool check_is_depth_format(fm_format format)
 {
     return format == FM_FORMAT_D32F || format == FM_FORMAT_D32F_S8;
@@ -96,41 +103,43 @@ fm_status check_list(size_t *count, const char *const *first, size_t stride_byte
     return FM_OK;
 }
 
-fm_status check_known(size_t *index, const char *word, const char *const *names, size_t count,
-                      const char *field, const char *what, fm_error *err)
+fm_status check_known(size_t *index, const char *word, const char *field, const fm_names *names,
+                      fm_error *err)
 {
-    for (*index = 0; *index < count; ++*index)
-        if (strcmp(word, names[*index]) == 0)
+    for (*index = 0; *index < names->count; ++*index)
+        if (strcmp(word, names->items[*index]) == 0)
             return FM_OK;
-    const char *nearest = text_nearest(word, names, count);
-    return fm_fail(err, FM_INVALID, "%s '%s': no such %s%s%s%s", field, word, what,
-                   nearest == NULL ? "" : "; nearest is '", nearest == NULL ? "" : nearest,
-                   nearest == NULL ? "" : "'");
+    const char *nearest = text_nearest(word, names->items, names->count);
+    if (nearest == NULL)
+        return fm_fail(err, FM_INVALID, "%s '%s': no such %s", field, word, names->what);
+    return fm_fail(err, FM_INVALID, "%s '%s': no such %s; nearest is '%s'", field, word,
+                   names->what, nearest);
 }
 
-static fm_status count_lists(fm_check *check, fm_error *err)
+static fm_status take_names(fm_names *names, const char *const *first, size_t stride_bytes,
+                            size_t room, fm_error *err)
+{
+    const fm_status status = check_list(&names->count, first, stride_bytes, room, names->list, err);
+    for (size_t i = 0; status == FM_OK && i < names->count; i++)
+        names->items[i] = name_at(first, stride_bytes, i);
+    return status;
+}
+
+static fm_status take_lists(fm_check *check, fm_error *err)
 {
     const fm_method_desc *m = check->method;
-    fm_status status = check_list(&check->option_count, &m->options[0].name, sizeof m->options[0],
-                                  FM_MAX_OPTIONS, "options", err);
+    fm_status status =
+        take_names(&check->options, &m->options[0].name, sizeof m->options[0], FM_MAX_OPTIONS, err);
     if (status == FM_OK)
-        status = check_list(&check->resource_count, &m->resources[0].name, sizeof m->resources[0],
-                            FM_MAX_RESOURCES, "resources", err);
+        status = take_names(&check->resources, &m->resources[0].name, sizeof m->resources[0],
+                            FM_MAX_RESOURCES, err);
     if (status == FM_OK)
-        status = check_list(&check->total_count, &m->totals[0].name, sizeof m->totals[0],
-                            FM_MAX_TOTALS, "totals", err);
+        status =
+            take_names(&check->totals, &m->totals[0].name, sizeof m->totals[0], FM_MAX_TOTALS, err);
     if (status == FM_OK)
-        status = check_list(&check->pass_count, &m->passes[0].name, sizeof m->passes[0],
-                            FM_MAX_PASSES, "passes", err);
-    if (status != FM_OK)
-        return status;
-    for (size_t i = 0; i < check->resource_count; i++)
-        check->resources[i] = m->resources[i].name;
-    for (size_t i = 0; i < check->total_count; i++)
-        check->totals[i] = m->totals[i].name;
-    for (size_t i = 0; i < check->pass_count; i++)
-        check->passes[i] = m->passes[i].name;
-    return FM_OK;
+        status =
+            take_names(&check->passes, &m->passes[0].name, sizeof m->passes[0], FM_MAX_PASSES, err);
+    return status;
 }
 
 static fm_status check_id(const char *id, fm_error *err)
@@ -189,7 +198,11 @@ static fm_status check_head(const fm_method_desc *m, fm_error *err)
 
 static fm_status check_all(const fm_method_desc *method, fm_error *err)
 {
-    fm_check check = { .method = method };
+    fm_check check = { .method = method,
+                       .options = { .what = "option", .list = "options" },
+                       .resources = { .what = "resource", .list = "resources" },
+                       .totals = { .what = "total", .list = "totals" },
+                       .passes = { .what = "pass", .list = "passes" } };
     if (method->abi != FM_ABI)
         return fm_fail(err, FM_INVALID,
                        "abi: the plugin has %" PRIu32 ", this program takes %u: build it again",
@@ -200,7 +213,7 @@ static fm_status check_all(const fm_method_desc *method, fm_error *err)
                        method->size_bytes, sizeof *method);
     fm_status status = check_head(method, err);
     if (status == FM_OK)
-        status = count_lists(&check, err);
+        status = take_lists(&check, err);
     if (status == FM_OK)
         status = check_options(&check, err);
     if (status == FM_OK)

@@ -9,13 +9,18 @@
 #include "error.h"
 #include "fragmark/method.h"
 
+/* The names of a list, for look-up and for the nearest. */
+typedef struct fm_names {
+    const char *what, *list; /* "pass" and "passes", in messages */
+    size_t count;
+    const char *items[FM_MAX_RESOURCES]; /* the longest list */
+} fm_names;
+_Static_assert((int)FM_MAX_PASSES <= (int)FM_MAX_RESOURCES, "passes fit in fm_names");
+
 /* A descriptor whose lists were counted: nothing after that looks for their ends. */
 typedef struct fm_check {
     const fm_method_desc *method;
-    size_t option_count, resource_count, total_count, pass_count;
-    const char *resources[FM_MAX_RESOURCES]; /* names, for the nearest */
-    const char *totals[FM_MAX_TOTALS];
-    const char *passes[FM_MAX_PASSES];
+    fm_names options, resources, totals, passes;
 } fm_check;
 
 fm_status check_options(const fm_check *check, fm_error *err);
@@ -28,9 +33,9 @@ fm_status check_loops(const fm_check *check, fm_error *err);
  * first. FM_INVALID: a name stands behind the end, or one is empty or twice there. */
 fm_status check_list(size_t *count, const char *const *first, size_t stride_bytes, size_t room,
                      const char *list, fm_error *err);
-/* Index of word in names; FM_INVALID: none, with the nearest. what: "resource". */
-fm_status check_known(size_t *index, const char *word, const char *const *names, size_t count,
-                      const char *field, const char *what, fm_error *err);
+/* Index of word in names; FM_INVALID: none, with the nearest. */
+fm_status check_known(size_t *index, const char *word, const char *field, const fm_names *names,
+                      fm_error *err);
 fm_status check_range(unsigned value, unsigned count, const char *field, fm_error *err);
 /* [a-z] first, then [a-z0-9] and the characters of `others`. */
 bool check_is_word(const char *name, const char *others);
@@ -38,6 +43,8 @@ bool check_is_word(const char *name, const char *others);
 bool check_is_taken(const char *name);
 /* Those, and words as buffer or main: no name of a variable or function. */
 bool check_is_reserved(const char *name);
+/* '-' becomes '_', as GLSL sees names. */
+void check_fold_hyphens(char *name);
 bool check_is_depth_format(fm_format format);
 
 #endif

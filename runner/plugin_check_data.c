@@ -10,6 +10,9 @@
 enum { DEFINE_MAX_BYTES = 64, MAX_IMAGE_LAYERS = 2048, MAX_IMAGE_SAMPLES = 16 };
 static const uint64_t max_extent = UINT64_C(1) << 40;
 
+/* NAME_VALUE. */
+typedef char define_text[2 * DEFINE_MAX_BYTES];
+
 static bool is_numeric(const fm_option *option, size_t value_count)
 {
     double number;
@@ -33,13 +36,12 @@ static fm_status check_value(const char *value, bool is_number, fm_error *err)
 }
 
 /* Adds NAME or NAME_VALUE as GLSL sees it; FM_INVALID: it is another's macro too. */
-static fm_status add_define(char defines[][2 * DEFINE_MAX_BYTES], size_t *count, const char *name,
+static fm_status add_define(define_text *defines, size_t *count, const char *name,
                             const char *value, fm_error *err)
 {
     char *define = defines[*count];
-    snprintf(define, 2 * DEFINE_MAX_BYTES, "%s%s%s", name, *value == '\0' ? "" : "_", value);
-    for (char *c = define; *c != '\0'; c++)
-        *c = *c == '-' ? '_' : *c;
+    snprintf(define, sizeof(define_text), "%s%s%s", name, *value == '\0' ? "" : "_", value);
+    check_fold_hyphens(define);
     if (check_is_taken(define) || strcmp(define, "k") == 0 || strcmp(define, "n") == 0)
         return fm_fail(err, FM_INVALID, "its macro would be '%s', which is reserved", define);
     for (size_t i = 0; i < *count; i++)
@@ -49,8 +51,8 @@ static fm_status add_define(char defines[][2 * DEFINE_MAX_BYTES], size_t *count,
     return FM_OK;
 }
 
-static fm_status check_option(const fm_option *option, char defines[][2 * DEFINE_MAX_BYTES],
-                              size_t *define_count, fm_error *err)
+static fm_status check_option(const fm_option *option, define_text *defines, size_t *define_count,
+                              fm_error *err)
 {
     size_t value_count;
     if (!check_is_word(option->name, "_-") || strlen(option->name) >= DEFINE_MAX_BYTES)
@@ -75,9 +77,9 @@ static fm_status check_option(const fm_option *option, char defines[][2 * DEFINE
 
 fm_status check_options(const fm_check *check, fm_error *err)
 {
-    char defines[FM_MAX_OPTIONS * (FM_MAX_OPTION_VALUES + 1)][2 * DEFINE_MAX_BYTES];
+    define_text defines[FM_MAX_OPTIONS * (FM_MAX_OPTION_VALUES + 1)];
     size_t define_count = 0;
-    for (size_t i = 0; i < check->option_count; i++) {
+    for (size_t i = 0; i < check->options.count; i++) {
         const fm_option *option = &check->method->options[i];
         if (check_option(option, defines, &define_count, err) != FM_OK)
             return fm_error_prefix(err, "option '%s'", option->name);
@@ -88,13 +90,9 @@ fm_status check_options(const fm_check *check, fm_error *err)
 /* The option that per_option multiplies by: whole numbers only. */
 static fm_status check_counting_option(const fm_check *check, const char *name, fm_error *err)
 {
-    const char *names[FM_MAX_OPTIONS];
     size_t index;
     uint64_t number;
-    for (size_t i = 0; i < check->option_count; i++)
-        names[i] = check->method->options[i].name;
-    const fm_status status =
-        check_known(&index, name, names, check->option_count, "extent.option", "option", err);
+    const fm_status status = check_known(&index, name, "extent.option", &check->options, err);
     if (status != FM_OK)
         return status;
     const fm_option *option = &check->method->options[index];
@@ -133,8 +131,7 @@ static fm_status check_extent(const fm_check *check, const fm_extent *e, fm_erro
         status = check_term(e->per_option, e->option, "per_option", "option", err);
     if (status == FM_OK && e->total != NULL) {
         size_t index;
-        status = check_known(&index, e->total, check->totals, check->total_count, "extent.total",
-                             "total", err);
+        status = check_known(&index, e->total, "extent.total", &check->totals, err);
     }
     if (status == FM_OK && e->option != NULL)
         status = check_counting_option(check, e->option, err);
@@ -159,8 +156,7 @@ static fm_status check_sizing(const fm_check *check, const fm_resource *r, fm_er
         return fm_fail(err, FM_INVALID, "overflow: only with FM_SIZE_GROW");
     if (r->overflow == NULL)
         return FM_OK;
-    return check_known(&index, r->overflow, check->totals, check->total_count, "overflow", "total",
-                       err);
+    return check_known(&index, r->overflow, "overflow", &check->totals, err);
 }
 
 static fm_status check_buffer(const fm_check *check, const fm_resource *r, fm_error *err)
@@ -207,8 +203,8 @@ static fm_status check_resource_name(const fm_check *check, const char *name, fm
         return fm_fail(err, FM_INVALID, "needs lower-case letters, digits and '_'");
     if (check_is_reserved(name) || strcmp(name, "store") == 0 || strcmp(name, "wanted") == 0)
         return fm_fail(err, FM_INVALID, "a word that GLSL or the runner reserves");
-    for (size_t i = 0; i < check->resource_count; i++) {
-        const char *other = check->resources[i];
+    for (size_t i = 0; i < check->resources.count; i++) {
+        const char *other = check->resources.items[i];
         const size_t other_length = strlen(other);
         if (check->method->resources[i].ping_pong && length > other_length &&
             strncmp(name, other, other_length) == 0 &&
@@ -230,7 +226,7 @@ static fm_status check_resource(const fm_check *check, const fm_resource *r, fm_
 
 fm_status check_resources(const fm_check *check, fm_error *err)
 {
-    for (size_t i = 0; i < check->resource_count; i++) {
+    for (size_t i = 0; i < check->resources.count; i++) {
         const fm_resource *r = &check->method->resources[i];
         if (check_resource(check, r, err) != FM_OK)
             return fm_error_prefix(err, "resource '%s'", r->name);
@@ -242,8 +238,8 @@ fm_status check_resources(const fm_check *check, fm_error *err)
 static fm_status check_source(const fm_check *check, const fm_total *total, fm_error *err)
 {
     size_t index;
-    const fm_status status = check_known(&index, total->resource, check->resources,
-                                         check->resource_count, "resource", "resource", err);
+    const fm_status status =
+        check_known(&index, total->resource, "resource", &check->resources, err);
     if (status != FM_OK)
         return status;
     const fm_resource *r = &check->method->resources[index];
@@ -267,8 +263,7 @@ static fm_status check_total(const fm_check *check, const fm_total *total, fm_er
         return fm_fail(err, FM_INVALID, "needs lower-case letters, digits, '-' and '_'");
     if (total->pass == NULL)
         return fm_fail(err, FM_INVALID, "pass: missing: after which pass it is read");
-    const fm_status status =
-        check_known(&index, total->pass, check->passes, check->pass_count, "pass", "pass", err);
+    const fm_status status = check_known(&index, total->pass, "pass", &check->passes, err);
     if (status != FM_OK)
         return status;
     if (total->resource != NULL)
@@ -285,8 +280,8 @@ static fm_status check_total(const fm_check *check, const fm_total *total, fm_er
 
 fm_status check_totals(const fm_check *check, fm_error *err)
 {
-    for (size_t i = 0; i < check->total_count; i++)
+    for (size_t i = 0; i < check->totals.count; i++)
         if (check_total(check, &check->method->totals[i], err) != FM_OK)
-            return fm_error_prefix(err, "total '%s'", check->totals[i]);
+            return fm_error_prefix(err, "total '%s'", check->totals.items[i]);
     return FM_OK;
 }

@@ -19,18 +19,15 @@ static fm_status check_loop(range *r, const fm_check *check, const fm_loop *loop
     size_t index;
     if (loop->last == NULL)
         return fm_fail(err, FM_INVALID, "last: missing");
-    fm_status status =
-        check_known(&r->first, loop->first, check->passes, check->pass_count, "first", "pass", err);
+    fm_status status = check_known(&r->first, loop->first, "first", &check->passes, err);
     if (status == FM_OK)
-        status = check_known(&r->last, loop->last, check->passes, check->pass_count, "last", "pass",
-                             err);
+        status = check_known(&r->last, loop->last, "last", &check->passes, err);
     if (status != FM_OK)
         return status;
     if (r->first > r->last)
         return fm_fail(err, FM_INVALID, "last: '%s' stands before '%s'", loop->last, loop->first);
     if (loop->until_zero != NULL)
-        return check_known(&index, loop->until_zero, check->totals, check->total_count,
-                           "until_zero", "total", err);
+        return check_known(&index, loop->until_zero, "until_zero", &check->totals, err);
     if (loop->count == 0 && loop->count_per_k == 0 && loop->count_per_n == 0 &&
         !is_ended_by_hook(check->method, r))
         return fm_fail(err, FM_INVALID,
@@ -57,7 +54,7 @@ static size_t loop_count(const fm_method_desc *method)
 
 fm_status check_loops(const fm_check *check, fm_error *err)
 {
-    range ranges[FM_MAX_LOOPS];
+    range ranges[FM_MAX_LOOPS] = { 0 };
     const fm_loop *loops = check->method->loops;
     const size_t count = loop_count(check->method);
     for (size_t i = count; i < FM_MAX_LOOPS; i++)

@@ -29,14 +29,12 @@ static fm_status check_pass_name(const fm_check *check, const fm_pass *pass, fm_
         return fm_fail(err, FM_INVALID, "name: needs lower-case letters, digits and hyphens");
     if (!kind_rules[pass->kind].has_shader || pass->kind == FM_PASS_SCENE)
         return FM_OK;
-    for (size_t i = 0; i <= length; i++)
-        function[i] = pass->name[i];
-    for (size_t i = 0; i < length; i++)
-        function[i] = function[i] == '-' ? '_' : function[i];
+    memcpy(function, pass->name, length + 1);
+    check_fold_hyphens(function);
     if (check_is_reserved(function))
         return fm_fail(err, FM_INVALID, "name: its function '%s' is a reserved word", function);
-    for (size_t i = 0; i < check->resource_count; i++)
-        if (strcmp(function, check->resources[i]) == 0)
+    for (size_t i = 0; i < check->resources.count; i++)
+        if (strcmp(function, check->resources.items[i]) == 0)
             return fm_fail(err, FM_INVALID, "name: its function '%s' is a resource's name too",
                            function);
     return FM_OK;
@@ -72,8 +70,8 @@ static fm_status check_shader(const fm_pass *pass, fm_error *err)
 
 static const fm_resource *find_resource(const fm_check *check, const char *name)
 {
-    for (size_t i = 0; i < check->resource_count; i++)
-        if (strcmp(name, check->resources[i]) == 0)
+    for (size_t i = 0; i < check->resources.count; i++)
+        if (strcmp(name, check->resources.items[i]) == 0)
             return &check->method->resources[i];
     return NULL;
 }
@@ -82,9 +80,9 @@ static const fm_resource *find_resource(const fm_check *check, const char *name)
  */
 static const fm_resource *find_previous(const fm_check *check, const char *name)
 {
-    for (size_t i = 0; i < check->resource_count; i++) {
-        const size_t length = strlen(check->resources[i]);
-        if (strncmp(name, check->resources[i], length) == 0 &&
+    for (size_t i = 0; i < check->resources.count; i++) {
+        const size_t length = strlen(check->resources.items[i]);
+        if (strncmp(name, check->resources.items[i], length) == 0 &&
             strcmp(name + length, "_previous") == 0)
             return &check->method->resources[i];
     }
@@ -105,8 +103,7 @@ static fm_status check_access(const fm_check *check, const char *name, const cha
         return fm_fail(err, FM_INVALID, "%s '%s': the previous copy can only be read", field, name);
     if (previous != NULL)
         return FM_OK;
-    return check_known(&index, name, check->resources, check->resource_count, field, "resource",
-                       err);
+    return check_known(&index, name, field, &check->resources, err);
 }
 
 static fm_status check_accesses(const fm_check *check, const fm_pass *pass, fm_error *err)
@@ -139,8 +136,7 @@ static fm_status check_attachment(const fm_resource **image, const fm_check *che
                                   fm_error *err)
 {
     size_t index;
-    const fm_status status =
-        check_known(&index, name, check->resources, check->resource_count, field, "resource", err);
+    const fm_status status = check_known(&index, name, field, &check->resources, err);
     if (status != FM_OK)
         return status;
     *image = &check->method->resources[index];
@@ -271,12 +267,11 @@ static fm_status check_counts(const fm_check *check, const fm_pass *pass, fm_err
     if ((pass->kind == FM_PASS_INDIRECT) != (pass->indirect != NULL))
         return fm_fail(err, FM_INVALID, "indirect: needed by kind indirect, and by no other");
     if (pass->count_total != NULL)
-        return check_known(&index, pass->count_total, check->totals, check->total_count,
-                           "count_total", "total", err);
+        return check_known(&index, pass->count_total, "count_total", &check->totals, err);
     if (pass->indirect == NULL)
         return FM_OK;
-    const fm_status status = check_known(&index, pass->indirect, check->resources,
-                                         check->resource_count, "indirect", "resource", err);
+    const fm_status status =
+        check_known(&index, pass->indirect, "indirect", &check->resources, err);
     if (status != FM_OK)
         return status;
     const fm_resource *r = &check->method->resources[index];
@@ -310,9 +305,9 @@ static fm_status check_pass(const fm_check *check, const fm_pass *pass, fm_error
 fm_status check_passes(const fm_check *check, fm_error *err)
 {
     bool emits = false;
-    if (check->pass_count == 0)
+    if (check->passes.count == 0)
         return fm_fail(err, FM_INVALID, "passes: none");
-    for (size_t i = 0; i < check->pass_count; i++) {
+    for (size_t i = 0; i < check->passes.count; i++) {
         const fm_pass *pass = &check->method->passes[i];
         if (check_pass(check, pass, err) != FM_OK)
             return fm_error_prefix(err, "pass '%s'", pass->name);

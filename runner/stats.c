@@ -65,7 +65,7 @@ static bool grouped_build(grouped *g, const fm_samples *samples)
         g->values[starts[samples->group_of[i]]++] = samples->values[i];
     free(starts);
     free(sizes);
-    if (has_room)
+    if (has_room && largest > 0)
         g->drawn = calloc(largest * g->group_count, sizeof(double));
     return g->drawn != NULL;
 }
@@ -89,7 +89,7 @@ fm_interval stats_bootstrap(const fm_samples *samples, uint64_t seed)
     double *medians = NULL;
     if (samples->count == 0)
         return result;
-    assert(samples->count <= UINT32_MAX);
+    assert(samples->count <= UINT32_MAX && samples->group_count > 0);
     medians = calloc(REPLICATES, sizeof *medians);
     if (medians == NULL || !grouped_build(&g, samples))
         goto out;
