@@ -238,6 +238,9 @@ static void worsen(fm_case_result *kept, uint32_t launch, fm_case_status status,
         snprintf(kept->message, sizeof kept->message, "%s", message);
     else
         snprintf(kept->message, sizeof kept->message, "launch %u: %s", launch, message);
+    /* Compilers' logs end with empty lines. */
+    for (size_t length = strlen(kept->message); length > 0 && kept->message[length - 1] == '\n';)
+        kept->message[--length] = '\0';
 }
 
 /* Depths that tie are composited in either order: another image, and yet exact. */

@@ -3,7 +3,7 @@
 int cli_fail(const fm_cli *cli, const fm_error *err)
 {
     fprintf(cli->talk, "fragmark: %s\n", err->message);
-    return err->status == FM_INVALID ? CLI_USAGE : CLI_NOTHING;
+    return err->status == FM_INVALID || err->status == FM_IO ? CLI_USAGE : CLI_NOTHING;
 }
 
 int cli_print_json(const fm_cli *cli, json_t *object)

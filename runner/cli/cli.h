@@ -33,7 +33,8 @@ typedef struct fm_cli {
 typedef int fm_command(const fm_cli *cli, int argc, char **argv);
 fm_command cli_list, cli_doctor, cli_plan, cli_run, cli_reproduce, cli_report;
 
-/* Says what went wrong and returns the exit code for it. */
+/* Says what went wrong before anything was run, and returns the exit code for it: CLI_USAGE where
+ * the arguments, or files that they name, are to blame. */
 int cli_fail(const fm_cli *cli, const fm_error *err);
 /* Prints JSON and drops it. */
 int cli_print_json(const fm_cli *cli, json_t *object);

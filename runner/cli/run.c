@@ -141,7 +141,9 @@ int cli_run_plan(const fm_arguments *arguments, const char *directory, const fm_
     };
     if (run_cases(&result, plan, plugins, &desc, &err) != FM_OK) {
         const int code = cli_fail(arguments->cli, &err);
-        return result.is_damaged ? CLI_DAMAGED : code;
+        if (err.status != FM_IO)
+            return code;
+        return result.is_damaged ? CLI_DAMAGED : CLI_NOTHING; /* or a full disk */
     }
     sum_up(arguments, &result, directory, command);
     if (result.stop_signal == 0)

@@ -1,0 +1,98 @@
+#!/usr/bin/env bash
+# cli_test.sh PROGRAM: exit codes and messages of the program, on the dummy device. What is checked
+# stands in each line: check NAME EXPECTED_CODE WORDS COMMAND...; WORDS are sought in both streams.
+set -uo pipefail
+program=$1
+here=$(mktemp -d)
+trap 'rm -rf "$here"' EXIT
+failed=0
+# A report would take seconds and is tested elsewhere.
+small=(--device dummy -a n=4 -a k=2 -a width_px=16 -a height_px=16 -a frames=2 -a warmup=0 --no-images)
+
+complain() {
+    echo "FAILED: $1"
+    sed 's/^/    /' "$here/out" "$here/talk"
+    failed=1
+}
+
+check() {
+    local name=$1 expected=$2 words=$3
+    shift 3
+    "$@" >"$here/out" 2>"$here/talk" </dev/null
+    local code=$?
+    if [ "$code" -ne "$expected" ]; then
+        complain "$name: exit code $code, not $expected: $*"
+    elif ! cat "$here/out" "$here/talk" | tr '\n' ' ' | grep -qF -- "$words"; then
+        complain "$name: '$words' is missing: $*"
+    fi
+}
+
+check no_arguments_are_a_usage_error 2 "Usage: fragmark" "$program"
+check help_is_data 0 "Exit codes" "$program" --help
+[ -s "$here/talk" ] && complain "help_is_data: on stdout only"
+check version_is_told 0 "fragmark " "$program" --version
+check unknown_command_names_the_nearest 2 "the nearest is 'run'" "$program" rum
+check unknown_list_names_the_nearest 2 "the nearest is 'methods'" "$program" list methds
+check unknown_option_is_a_usage_error 2 "--metod" "$program" run --metod kb
+for command in list doctor plan run reproduce report; do
+    check "help_of_${command}_tells_exit_codes" 0 "Exit codes" "$program" "$command" --help
+done
+check help_of_run_has_the_axes 0 "pixel_density" "$program" run --help
+
+check methods_are_listed 0 "null" "$program" list methods
+check devices_are_listed 0 "dummy" "$program" list devices
+check scenes_are_listed 0 "layers" "$program" list scenes
+check figures_are_listed 0 "" "$program" list figures
+check methods_as_json 0 '"family": "control"' "$program" list methods --json
+check doctor_knows_the_machine 0 "memory_bytes" "$program" doctor --json
+
+check plan_lists_cases 0 "k=8" "$program" plan --method kplus-array -a k=4,8 -a n=16
+check plan_says_it_estimates 0 "an estimate" "$program" plan --method kplus-array
+check plan_as_json 0 '"case_id"' "$program" plan --method kplus-array --json
+check unknown_method_names_the_nearest 2 "nearest is 'kplus-array'" \
+    "$program" plan --method kplus-aray
+check unknown_axis_names_the_nearest 2 "pixel_density" "$program" plan -a pixel_densty=1
+check bad_value_names_the_range 2 "1..64" "$program" plan -a tessellation=65
+check missing_spec_is_a_spec_error 2 "absent.yml" "$program" plan "$here/absent.yml"
+printf 'methods: [kplus-array]\nkk: 3\n' >"$here/bad.yml"
+check spec_error_names_file_and_line 2 "bad.yml:2" "$program" run "$here/bad.yml" -o "$here/bad"
+[ -e "$here/bad" ] && complain "spec_error: a folder was made"
+check bad_memory_limit_is_a_usage_error 2 "4G" "$program" run --memory-limit 4X
+check bad_timeout_is_a_usage_error 2 "seconds" "$program" run --timeout 0
+check unknown_figure_names_the_nearest 2 "kplus-05" "$program" reproduce kplus-5
+check report_needs_a_folder 2 "which DIR" "$program" report
+
+run() { "$program" run --method kplus-array,z-buffer "${small[@]}" -a launches="$1" -o "$here/$2"; }
+check run_measures 0 "2 ok" run 2 first
+[ -s "$here/out" ] && grep -qv '^$' "$here/out" && grep -q "launch" "$here/out" &&
+    complain "run_measures: progress belongs to stderr"
+check run_again_has_nothing_to_do 0 "2 ok" run 2 first
+check other_plan_is_refused 2 "another plan" run 3 first
+echo damage >>"$here/first/journal.jsonl"
+check damage_is_told_apart 8 "damaged" run 2 first
+check folder_that_cannot_be_made 2 "/proc" "$program" run --method z-buffer "${small[@]}" \
+    -o /proc/fragmark
+check unsupported_only_is_nothing 3 "1 not supported" "$program" run --method kplus-array \
+    "${small[@]}" --feed triangles -o "$here/unsupported"
+
+# Killed at any moment, the same command continues and ends with the same rows.
+for signal in INT TERM KILL; do
+    env --default-signal=INT "$program" run --method kplus-array,z-buffer "${small[@]}" \
+        -a launches=100 -o "$here/$signal" >"$here/out" 2>"$here/talk" &
+    victim=$!
+    for _ in $(seq 100); do
+        grep -qs '"end"' "$here/$signal/journal.jsonl" && break
+        sleep 0.05
+    done
+    kill -s "$signal" "$victim"
+    wait "$victim"
+    code=$?
+    case $signal in INT) expected=130 ;; TERM) expected=143 ;; KILL) expected=137 ;; esac
+    [ "$code" -eq "$expected" ] || complain "SIG$signal: exit code $code, not $expected"
+    [ "$signal" = KILL ] || grep -q "continue with the same command" "$here/talk" ||
+        complain "SIG$signal: does not say how to continue"
+    check "run_continues_after_SIG$signal" 0 "2 ok" run 100 "$signal"
+    rows=$(grep -c ',frame_ms,' "$here/$signal/samples.csv")
+    [ "$rows" -eq 400 ] || complain "SIG$signal: $rows rows of frame_ms, not 400"
+done
+exit "$failed"
