@@ -16,8 +16,8 @@ typedef struct fm_image_error {
     double rmse;    /* over all channels and pixels */
     double psnr_db; /* peak 1; INFINITY for equal images */
     double max_abs;
-    double ssim;    /* mean over pixels of luminance SSIM, 11 x 11 Gaussian window, sigma 1.5
-                       (Wang et al. 2004, K1 = 0.01, K2 = 0.03, range 1), borders clamped */
+    double ssim; /* mean over pixels of luminance SSIM, 11 x 11 Gaussian window, sigma 1.5
+                    (Wang et al. 2004, K1 = 0.01, K2 = 0.03, range 1), borders clamped */
 } fm_image_error;
 
 /* All zero. FM_INVALID: no pixels, or more than 2^28. */
@@ -29,8 +29,7 @@ void image_destroy(fm_image *image);
 fm_status image_compare(fm_image_error *error, const fm_image *image, const fm_image *reference,
                         fm_error *err);
 /* The mean of error->ssim alone (ssim.c); sizes must agree. FM_NO_MEMORY. */
-fm_status image_ssim(double *ssim, const fm_image *image, const fm_image *reference,
-                     fm_error *err);
+fm_status image_ssim(double *ssim, const fm_image *image, const fm_image *reference, fm_error *err);
 /* xxhash64 of the pixels. */
 uint64_t image_hash(const fm_image *image);
 

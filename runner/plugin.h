@@ -5,11 +5,11 @@
 #include <stddef.h>
 
 #include "error.h"
-#include "settings.h"
 #include "fragmark/method.h"
+#include "settings.h"
 
 typedef struct fm_plugin {
-    const fm_method_desc *method; /* checked */
+    const fm_method_desc *method;   /* checked */
     char folder[FM_PATH_MAX_BYTES]; /* where its GLSL is */
     char path[FM_PATH_MAX_BYTES];   /* of the shared object */
     void *handle;
@@ -48,8 +48,8 @@ fm_status plugin_list_open(fm_plugin_list *list, const char *const *extra, fm_er
 void plugin_list_close(fm_plugin_list *list);
 const fm_plugin_entry *plugin_list_find(const fm_plugin_list *list, const char *id);
 /* FM_INVALID with the nearest id. */
-fm_status plugin_list_get(const fm_plugin_entry **entry, const fm_plugin_list *list,
-                          const char *id, fm_error *err);
+fm_status plugin_list_get(const fm_plugin_entry **entry, const fm_plugin_list *list, const char *id,
+                          fm_error *err);
 /* The method with FM_TRAIT_FLOOR; FM_INVALID without one. */
 fm_status plugin_list_floor(const fm_plugin **plugin, const fm_plugin_list *list, fm_error *err);
 

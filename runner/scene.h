@@ -32,10 +32,10 @@ typedef struct fm_scene {
     uint32_t n; /* layers: n; mesh: 0, known only from truth */
 
     /* layers */
-    fm_layer *layers;       /* [n], by depth rank, nearest first */
-    uint32_t *order;        /* [order_rows][n]: arrival slot -> layer */
-    uint32_t order_rows;    /* 1, or one for each cell (random-cell) */
-    fm_rect rect;           /* covered pixels */
+    fm_layer *layers;            /* [n], by depth rank, nearest first */
+    uint32_t *order;             /* [order_rows][n]: arrival slot -> layer */
+    uint32_t order_rows;         /* 1, or one for each cell (random-cell) */
+    fm_rect rect;                /* covered pixels */
     uint32_t survival_threshold; /* a fragment lives iff hash < threshold; 0xFFFFFFFF: all live */
 
     /* mesh */
@@ -49,8 +49,8 @@ typedef struct fm_scene {
 
 /* Builds the scene that settings describe; settings must have passed settings_finish.
  * FM_IO, FM_INVALID: meshes that are missing, empty, truncated, not finite or badly indexed. Of an
- * OBJ file, which states no counts, only what is cut within a line or refers to lost vertices shows.
- * FM_INVALID, FM_NO_MEMORY: scenes too large to hold. */
+ * OBJ file, which states no counts, only what is cut within a line or refers to lost vertices
+ * shows. FM_INVALID, FM_NO_MEMORY: scenes too large to hold. */
 fm_status scene_create(fm_scene **scene, const fm_settings *settings, fm_error *err);
 void scene_destroy(fm_scene *scene);
 
@@ -66,8 +66,8 @@ void scene_destroy(fm_scene *scene);
  * 0xFFFFFFFF all live and the test is skipped. Cells of a tessellation t go row by row:
  * cell = cell_y * t + cell_x, which is also the row of `order` that random-cell uses. */
 fm_status layers_generate(fm_scene *scene, fm_error *err);
-/* Where cell i of t begins, in px, and cell i - 1 ends; i = 0..t. begin, end: rect's x0, x1 or y0, y1.
- * Cells of less than a pixel may be empty. */
+/* Where cell i of t begins, in px, and cell i - 1 ends; i = 0..t. begin, end: rect's x0, x1 or y0,
+ * y1. Cells of less than a pixel may be empty. */
 uint32_t layers_border(uint32_t begin, uint32_t end, uint32_t i, uint32_t t);
 /* The mesh loader: fills vertices, indices, clip_from_object (runner/mesh.c).
  * Vertices have a stone base colour times a two-sided Lambert shade of a fixed light, with

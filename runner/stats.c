@@ -65,8 +65,9 @@ static bool grouped_build(grouped *g, const fm_samples *samples)
         g->values[starts[samples->group_of[i]]++] = samples->values[i];
     free(starts);
     free(sizes);
-    if (has_room && largest > 0)
-        g->drawn = calloc(largest * g->group_count, sizeof(double));
+    const size_t replicate_max = largest * g->group_count;
+    if (has_room && replicate_max > 0)
+        g->drawn = calloc(replicate_max, sizeof(double));
     return g->drawn != NULL;
 }
 

@@ -21,8 +21,8 @@ typedef struct fm_samples {
 } fm_samples;
 
 /* Median with its 95 % percentile-bootstrap interval: 1 000 replicates that draw launches with
- * replacement, then samples within each drawn launch. One sample: low = high = median. Deterministic
- * for a seed. All three NAN: no samples, or no memory. */
+ * replacement, then samples within each drawn launch. One sample: low = high = median.
+ * Deterministic for a seed. All three NAN: no samples, or no memory. */
 fm_interval stats_bootstrap(const fm_samples *samples, uint64_t seed);
 
 /* splitmix64: the next value of *state; the one generator of randomness in the runner. */
