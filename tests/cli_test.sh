@@ -6,8 +6,8 @@ program=$1
 here=$(mktemp -d)
 trap 'rm -rf "$here"' EXIT
 failed=0
-# A report would take seconds and is tested elsewhere.
-small=(--device dummy -a n=4 -a k=2 -a width_px=16 -a height_px=16 -a frames=2 -a warmup=0 --no-images)
+small=(--device dummy -a n=4 -a k=2 -a width_px=16 -a height_px=16 -a frames=2 -a warmup=0
+    --no-images --no-report)
 
 complain() {
     echo "FAILED: $1"

@@ -14,7 +14,8 @@ enum {
     KEY_MEMORY,
     KEY_NO_IMAGES,
     KEY_VALIDATION,
-    KEY_NO_TIMERS
+    KEY_NO_TIMERS,
+    KEY_NO_REPORT
 };
 
 static const struct argp_option selection_options[] = {
@@ -36,6 +37,7 @@ static const struct argp_option running_options[] = {
     { "timeout", KEY_TIMEOUT, "S", 0, "seconds that one launch may take; 600", 0 },
     { "memory-limit", KEY_MEMORY, "BYTES", 0, "address space of one launch: 4G, 512M; none", 0 },
     { "no-images", KEY_NO_IMAGES, NULL, 0, "keep no images", 0 },
+    { "no-report", KEY_NO_REPORT, NULL, 0, "CSV files only; `fragmark report DIR` draws later", 0 },
     { "validation", KEY_VALIDATION, NULL, 0, "open devices with API validation (times suffer)", 0 },
     { "no-timers", KEY_NO_TIMERS, NULL, 0, "no timers, so that barriers follow accesses alone", 0 },
     { "quiet", 'q', NULL, 0, "no progress", 0 },
@@ -124,6 +126,9 @@ static error_t parse_running(int key, char *text, struct argp_state *state)
         return 0;
     case KEY_NO_IMAGES:
         arguments->no_images = true;
+        return 0;
+    case KEY_NO_REPORT:
+        arguments->no_report = true;
         return 0;
     case KEY_VALIDATION:
         arguments->validation = true;

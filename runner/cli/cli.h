@@ -59,7 +59,7 @@ typedef struct fm_arguments {
     const char *directory; /* -o; NULL: not given */
     uint32_t timeout_s;
     uint64_t memory_bytes, seed;
-    bool has_seed, no_images, validation, no_timers, quiet, json, smoke;
+    bool has_seed, no_images, no_report, validation, no_timers, quiet, json, smoke;
 } fm_arguments;
 
 /* Options that these subcommands have in common; children of their argp. */

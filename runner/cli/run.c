@@ -146,7 +146,7 @@ int cli_run_plan(const fm_arguments *arguments, const char *directory, const fm_
         return result.is_damaged ? CLI_DAMAGED : CLI_NOTHING; /* or a full disk */
     }
     sum_up(arguments, &result, directory, command);
-    if (result.stop_signal == 0)
+    if (result.stop_signal == 0 && !arguments->no_report)
         report(arguments->cli, directory);
     return exit_code(&result);
 }
