@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { TICK_VALUES_MAX = 12 };
+enum { TICK_VALUES_MAX = 12, BIN_CLEAR_PX = 20 };
 
 static const double LEAST_LOG_SPAN = 0.5; /* decades: less would magnify noise to a trend */
 
@@ -48,6 +48,12 @@ static size_t log_digits(double digits[9], double span_decades)
     return 1;
 }
 
+/* Its label would touch the bin's. */
+static bool is_near_bin(const fm_axis *axis, double value)
+{
+    return axis->zero_below > 0.0 && axis_position(axis, value) < FM_AXIS_BIN_PX + BIN_CLEAR_PX;
+}
+
 static void axis_log_ticks(fm_axis *axis)
 {
     double digits[9];
@@ -58,7 +64,8 @@ static void axis_log_ticks(fm_axis *axis)
     for (double decade = first; decade <= last; decade += stride)
         for (size_t i = 0; i < digit_count; i++) {
             double value = digits[i] * pow(10.0, decade);
-            if (value >= axis->low * (1 - 1e-9) && value <= axis->high * (1 + 1e-9))
+            if (value >= axis->low * (1 - 1e-9) && value <= axis->high * (1 + 1e-9) &&
+                !is_near_bin(axis, value))
                 axis_add_tick(axis, value, NULL);
         }
 }

@@ -75,7 +75,7 @@ static void add_row(fm_text *page, const fm_group *group, size_t index, bool on_
              on_frontier ? 0 : 1, on_frontier ? "&#9679;" : "");
     html_add(page, title);
     text_add(page, "</td>");
-    html_add_number(page, 8, group_uses_k(group, result) ? result->k : NAN);
+    html_add_number(page, 8, result->k);
     html_add_number(page, 8, result->n);
     add_time(page, result);
     add_memory(page, result);

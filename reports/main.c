@@ -38,29 +38,42 @@ static error_t parse(int key, char *value, struct argp_state *state)
     }
 }
 
+static bool is_in_folder(char path[1024], const char *folder, size_t length, const char *id)
+{
+    snprintf(path, 1024, "%.*s/%s.yml", (int)length, folder, id);
+    return length > 0 && access(path, R_OK) == 0;
+}
+
 /* Where a figure's file is: the argument itself, or an id in the folders that hold figures. */
 static bool find_figure(char path[1024], const char *name)
 {
-    const char *const folders[] = { getenv("FRAGMARK_FIGURE_PATH"), FM_FIGURES_SOURCE_DIR,
-                                    FM_FIGURES_INSTALL_DIR };
-    snprintf(path, 1024, "%s", name);
-    if (strchr(name, '/') != NULL || strchr(name, '.') != NULL)
+    const char *search = getenv("FRAGMARK_FIGURE_PATH"); /* folders with ':' between them */
+    if (strchr(name, '/') != NULL || strchr(name, '.') != NULL) {
+        snprintf(path, 1024, "%s", name);
         return access(path, R_OK) == 0;
-    for (size_t i = 0; i < sizeof folders / sizeof folders[0]; i++) {
-        if (folders[i] == NULL)
-            continue;
-        snprintf(path, 1024, "%s/%s.yml", folders[i], name);
-        if (access(path, R_OK) == 0)
-            return true;
     }
-    return false;
+    while (search != NULL && *search != '\0') {
+        size_t length = strcspn(search, ":");
+        if (is_in_folder(path, search, length, name))
+            return true;
+        search += length + (search[length] == ':');
+    }
+    return is_in_folder(path, FM_FIGURES_SOURCE_DIR, strlen(FM_FIGURES_SOURCE_DIR), name) ||
+           is_in_folder(path, FM_FIGURES_INSTALL_DIR, strlen(FM_FIGURES_INSTALL_DIR), name);
 }
 
-/* The run says which figures it is for; those asked for on the command line come instead. */
+/* The run says which figures it is for; those asked for on the command line come instead. One whose
+ * file is no longer here costs its charts, not the report. */
 static void take_figures_of_run(arguments *given, const fm_provenance *manifest)
 {
-    for (size_t i = 0; i < manifest->figure_count && given->figure_count < FIGURES_MOST; i++)
-        given->figures[given->figure_count++] = manifest->figures[i];
+    char path[1024];
+    for (size_t i = 0; i < manifest->figure_count && given->figure_count < FIGURES_MOST; i++) {
+        if (find_figure(path, manifest->figures[i]))
+            given->figures[given->figure_count++] = manifest->figures[i];
+        else
+            fprintf(stderr, "fragmark-report: figure %s is not here: left out\n",
+                    manifest->figures[i]);
+    }
 }
 
 static fm_status read_figures(fm_paper_figure **figures, const arguments *given, fm_error *err)

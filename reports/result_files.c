@@ -125,6 +125,8 @@ static void add_look(fm_case_row *result, const fm_provenance *manifest)
                           isfinite(result->frame_ms) && result->frame_ms > 0.0;
     result->is_software = device != NULL && device->is_software;
     result->total_rmse = result->rmse;
+    if (result->k == 0.0)
+        result->k = NAN; /* what methods that keep no k nearest are given */
 }
 
 static fm_status read_cases(fm_result_files *results, fm_error *err)
