@@ -41,13 +41,12 @@ static void write_state(fm_progress *progress, double now)
     duration_text(elapsed, now - progress->started_s);
     if (progress->finished > 0)
         duration_text(left, seconds_left(progress));
-    if (progress->is_terminal)
-        fputs("\r\033[K", progress->out);
+    if (progress->is_terminal) /* over the last one, and cut off at the border, not wrapped */
+        fputs("\r\033[K\033[?7l", progress->out);
     fprintf(progress->out, "%u/%u  %s%s%s%s  %s", progress->done, progress->total, elapsed,
             left[0] != '\0' ? ", about " : "", left, left[0] != '\0' ? " left" : "",
             progress->current);
-    if (!progress->is_terminal)
-        fputc('\n', progress->out);
+    fputs(progress->is_terminal ? "\033[?7h" : "\n", progress->out);
     fflush(progress->out);
     progress->written_s = now;
 }

@@ -300,7 +300,8 @@ static fm_status capture_truth(run_state *run, size_t job, fm_error *err)
 static fm_status measure(run_state *run, size_t case_index, uint32_t launch, fm_error *err)
 {
     const fm_case *of = &run->plan->cases[case_index];
-    char truth[FM_PATH_MAX_BYTES], image[FM_PATH_MAX_BYTES] = "", current[160];
+    char truth[FM_PATH_MAX_BYTES], image[FM_PATH_MAX_BYTES] = "", k[FM_PATH_MAX_BYTES],
+                                   current[160];
     fm_launch_outcome outcome;
     fm_status status = path_of(
         truth, run, "truth", run->truths.jobs[run->truths.of_case[case_index]].name, ".truth", err);
@@ -310,8 +311,9 @@ static fm_status measure(run_state *run, size_t case_index, uint32_t launch, fm_
         status = journal_write(run->journal, FM_JOURNAL_BEGIN, of->id, launch, NULL, err);
     if (status != FM_OK)
         return status;
-    snprintf(current, sizeof current, "%.40s k=%u %.30s %.30s %s, launch %u", of->method,
-             of->settings.k, of->scene, of->device, of->feed, launch);
+    settings_text(k, &of->settings, key_find("k"));
+    snprintf(current, sizeof current, "%.40s k=%.8s %.30s %.30s %s, launch %u", of->method, k,
+             of->scene, of->device, of->feed, launch);
     progress_begin(&run->progress, current);
     const fm_request request = {
         .of = of,
