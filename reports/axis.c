@@ -7,7 +7,7 @@
 
 enum { TICK_VALUES_MAX = 12, BIN_CLEAR_PX = 20 };
 
-static const double LEAST_LOG_SPAN = 0.5; /* decades: less would magnify noise to a trend */
+static const double least_log_span = 0.5; /* decades: less would magnify noise to a trend */
 
 void axis_label(char label[24], double value)
 {
@@ -57,11 +57,11 @@ static bool is_near_bin(const fm_axis *axis, double value)
 static void axis_log_ticks(fm_axis *axis)
 {
     double digits[9];
-    double first = floor(log10(axis->low)), last = ceil(log10(axis->high));
+    int first = (int)floor(log10(axis->low)), last = (int)ceil(log10(axis->high));
     double span = log10(axis->high / axis->low);
     size_t digit_count = log_digits(digits, span);
-    double stride = ceil(span / 8.0);
-    for (double decade = first; decade <= last; decade += stride)
+    int stride = (int)ceil(span / 8.0);
+    for (int decade = first; decade <= last; decade += stride)
         for (size_t i = 0; i < digit_count; i++) {
             double value = digits[i] * pow(10.0, decade);
             if (value >= axis->low * (1 - 1e-9) && value <= axis->high * (1 + 1e-9) &&
@@ -83,7 +83,7 @@ static void axis_fit_log(fm_axis *axis, const double *values, size_t count)
         high = 10.0;
     }
     double span = log10(high / low);
-    double pad = span < LEAST_LOG_SPAN ? (LEAST_LOG_SPAN - span) / 2 + 0.1 : 0.08 * span;
+    double pad = span < least_log_span ? (least_log_span - span) / 2 + 0.1 : 0.08 * span;
     axis->low = low * pow(10.0, -pad);
     axis->high = high * pow(10.0, pad);
     if (axis->zero_below > 0.0)

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double PLOT_WIDTH_PX = 560, PLOT_HEIGHT_PX = 380;
+static const double plot_width_px = 560, plot_height_px = 380;
 
 /* What the functions below share while one chart is made. */
 typedef struct job {
@@ -271,7 +271,7 @@ typedef struct bar_place {
     size_t top_row; /* widest text below a bar, px */
 } bar_place;
 
-static const double SLOT_PX = 24;
+static const double slot_px = 24;
 
 static void add_upright(fm_chart *chart, bar_place *place, const fm_case_row *result)
 {
@@ -280,7 +280,7 @@ static void add_upright(fm_chart *chart, bar_place *place, const fm_case_row *re
         return;
     char title[96];
     group_series_title(title, result);
-    *label = (fm_label){ .x_px = (place->slot + 0.5) * SLOT_PX + 4,
+    *label = (fm_label){ .x_px = (place->slot + 0.5) * slot_px + 4,
                          .y_px = -7,
                          .anchor = FM_ANCHOR_END,
                          .upright = true };
@@ -318,7 +318,7 @@ static void add_cluster_title(job *at, double from, double to, const char *text)
     fm_label *label = chart_add_label(at->chart);
     if (label == NULL)
         return;
-    *label = (fm_label){ .x_px = (from + to) / 2 * SLOT_PX,
+    *label = (fm_label){ .x_px = (from + to) / 2 * slot_px,
                          .y_px = 0, /* set when the longest name below the bars is known */
                          .size_px = 12,
                          .anchor = FM_ANCHOR_MIDDLE };
@@ -384,7 +384,7 @@ static fm_status make_bars(job *at, double *xs, fm_error *err)
     snprintf(chart->y.title, sizeof chart->y.title, "time [ms]");
     chart->x.low = 0.0;
     chart->x.high = place.slot - 0.5;
-    chart->x.length_px = chart->x.high * SLOT_PX;
+    chart->x.length_px = chart->x.high * slot_px;
     for (size_t i = 0; i < chart->label_count; i++)
         if (!chart->labels[i].upright)
             chart->labels[i].y_px = -(double)place.top_row - 28;
@@ -399,7 +399,7 @@ fm_status figure_chart_make(fm_chart *chart, const fm_paper_figure *figure,
 {
     fm_status status = FM_OK;
     size_t room = (group->count + 1) * (group->count + 1) + figure->point_count;
-    *chart = (fm_chart){ .x.length_px = PLOT_WIDTH_PX, .y.length_px = PLOT_HEIGHT_PX };
+    *chart = (fm_chart){ .x.length_px = plot_width_px, .y.length_px = plot_height_px };
     job at = { chart, figure, from, results, group, NULL, NULL, 0, 0 };
     double *xs = calloc(group->count + 1, sizeof *xs);
     at.x = calloc(room, sizeof *at.x);

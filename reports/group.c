@@ -167,7 +167,7 @@ static fm_group *find_group(fm_groups *groups, const fm_case_row *result, size_t
     if (grown == NULL)
         return NULL;
     groups->groups = grown;
-    grown[groups->count] = (fm_group){ .cases = calloc(case_limit, sizeof *grown->cases) };
+    grown[groups->count] = (fm_group){ .cases = calloc(case_limit, sizeof(void *)) };
     return grown[groups->count].cases == NULL ? NULL : &grown[groups->count++];
 }
 
@@ -188,7 +188,8 @@ fm_status groups_make(fm_groups *groups, const fm_result_files *results, fm_case
     }
     for (size_t i = 0; i < groups->count; i++) {
         fm_group *group = &groups->groups[i];
-        qsort(group->cases, group->count, sizeof(const fm_case_row *), compare_cases);
+        /* NOLINTNEXTLINE(bugprone-sizeof-expression): pointers are what is sorted */
+        qsort(group->cases, group->count, sizeof group->cases[0], compare_cases);
         describe(group);
         name_group(groups, i);
     }

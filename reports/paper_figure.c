@@ -17,7 +17,7 @@ static const char *const chart_keys[] = { "id",    "kind",     "title",      "x"
                                           "parts", "ratio_to", "with_paper", "y_scale" };
 static const char *const points_keys[] = { "parts", "series" };
 static const char *const series_keys[] = { "method", "title", "points" };
-#define KEYS(list) list, sizeof list / sizeof list[0]
+#define KEYS(list) (list), sizeof(list) / sizeof((list)[0])
 
 static fm_status check_keys(const fm_yaml *map, const char *what, const char *const *keys,
                             size_t key_count, const place *at)
@@ -194,7 +194,7 @@ static fm_status read_paper_points(fm_paper_figure *figure, const fm_yaml *map, 
     if (status == FM_OK && (series == NULL || series->kind != FM_YAML_LIST))
         status =
             fm_fail(at->err, FM_INVALID, "%s:%u: series: a list is expected", at->path, map->line);
-    for (size_t i = 0; status == FM_OK && i < series->count; i++)
+    for (size_t i = 0; status == FM_OK && series != NULL && i < series->count; i++)
         status = read_paper_series(figure, &series->items[i], parts.count, at);
     return status;
 }

@@ -19,7 +19,7 @@
 #include "svg_png.h"
 #include "table.h"
 
-static const double PNG_ZOOM = 2.0;
+static const double png_zoom = 2.0;
 enum { PAGE_PICTURES_BYTES = 64 << 20 }; /* more would make a page that phones cannot open */
 
 /* What is shared while one report is written. */
@@ -60,7 +60,7 @@ static fm_status add_chart(writer *to, fm_chart *chart, fm_status status, const 
     status = text_write_file(path, svg, strlen(svg), to->err);
     snprintf(path, sizeof path, "%s/charts/%s.png", directory, name);
     if (status == FM_OK)
-        status = svg_png_write(path, svg, PNG_ZOOM, to->err);
+        status = svg_png_write(path, svg, png_zoom, to->err);
     text_add(&to->page,
              "<div class=chart>%s</div>\n<p class=links><a href=\"charts/%s.svg\">SVG</a> "
              "<a href=\"charts/%s.png\">PNG</a> <a href=\"summary.csv\">data</a></p>\n",

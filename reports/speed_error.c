@@ -5,9 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double PLOT_WIDTH_PX = 620, PLOT_HEIGHT_PX = 400;
-static const double MARKER_LEAST_PX = 8, MARKER_MOST_PX = 19;
-static const fm_colour FRONTIER_GREY = { 205, 205, 205 };
+enum { LABEL_PX = 10 };
+static const double plot_width_px = 620, plot_height_px = 400;
+static const double marker_least_px = 8, marker_most_px = 19;
+static const fm_colour frontier_grey = { 205, 205, 205 };
 
 static double error_of(const fm_case_row *result)
 {
@@ -69,7 +70,7 @@ static void add_frontier(fm_chart *chart, const fm_group *group, bool *on)
         stairs->points[2 * i - 1].y = stairs->points[i - 1].y;
     }
     stairs->point_count = 2 * count - 1;
-    stairs->colour = FRONTIER_GREY;
+    stairs->colour = frontier_grey;
     stairs->stroke = FM_STROKE_SOLID;
     stairs->width_px = 5;
     snprintf(stairs->label, sizeof stairs->label, "Pareto frontier");
@@ -78,9 +79,9 @@ static void add_frontier(fm_chart *chart, const fm_group *group, bool *on)
 static double marker_px(const fm_case_row *result, double bytes_most)
 {
     if (!(result->bytes_allocated > 0.0) || !(bytes_most > 0.0))
-        return MARKER_LEAST_PX;
-    return MARKER_LEAST_PX +
-           (MARKER_MOST_PX - MARKER_LEAST_PX) * sqrt(result->bytes_allocated / bytes_most);
+        return marker_least_px;
+    return marker_least_px +
+           (marker_most_px - marker_least_px) * sqrt(result->bytes_allocated / bytes_most);
 }
 
 /* The points of one method with one status: solid when ok, hollow when not. */
@@ -126,53 +127,69 @@ static bool boxes_touch(const box *a, const box *b)
     return a->x0 < b->x1 && b->x0 < a->x1 && a->y0 < b->y1 && b->y0 < a->y1;
 }
 
-/* "k = 8" beside a point, where it covers no other text and no marker; else nowhere. */
-static void add_label(fm_chart *chart, box *taken, size_t *taken_count, double x, double y,
-                      double size_px, const char *text)
+/* Where texts and markers are, so that no text covers another or a marker. */
+typedef struct taken_boxes {
+    box *boxes; /* room for two of each case */
+    size_t count;
+} taken_boxes;
+
+static box marker_box(const fm_chart *chart, const fm_case_row *result, double bytes_most)
 {
-    double width = chart_text_width_px(text, 10), off = size_px / 2 + 3;
-    const double shifts[][2] = {
-        { off, -4 },      { -off - width, -4 },     { -width / 2, off },
-        { off, off - 4 }, { -width / 2, -off - 9 },
+    double half = marker_px(result, bytes_most) / 2;
+    double x = axis_position(&chart->x, error_of(result));
+    double y = axis_position(&chart->y, result->frame_ms);
+    return (box){ x - half, y - half, x + half, y + half };
+}
+
+static bool is_free(const fm_chart *chart, const taken_boxes *taken, const box *here)
+{
+    bool is_inside = here->x0 > 2 && here->y0 > 2 && here->x1 < chart->x.length_px - 2 &&
+                     here->y1 < chart->y.length_px - 2;
+    for (size_t i = 0; i < taken->count && is_inside; i++)
+        if (boxes_touch(here, &taken->boxes[i]))
+            return false;
+    return is_inside;
+}
+
+/* "k=8" right of, left of, above or below a marker, at the first place that is free; else nowhere.
+ */
+static void add_label(fm_chart *chart, taken_boxes *taken, const box *marker, const char *text)
+{
+    double width = chart_text_width_px(text, LABEL_PX), gap = 3;
+    double x = (marker->x0 + marker->x1) / 2, y = (marker->y0 + marker->y1) / 2;
+    const double places[][2] = {
+        { marker->x1 + gap, y - 4 },
+        { marker->x0 - gap - width, y - 4 },
+        { x - width / 2, marker->y1 + gap },
+        { marker->x1 + gap, marker->y1 - 1 },
+        { x - width / 2, marker->y0 - gap - LABEL_PX + 1 },
     };
-    for (size_t i = 0; i < sizeof shifts / sizeof shifts[0]; i++) {
-        box here = { x + shifts[i][0], y + shifts[i][1], 0, 0 };
-        here.x1 = here.x0 + width;
-        here.y1 = here.y0 + 10;
-        bool is_free = here.x0 > 2 && here.y0 > 2 && here.x1 < chart->x.length_px - 2 &&
-                       here.y1 < chart->y.length_px - 2;
-        for (size_t j = 0; j < *taken_count && is_free; j++)
-            is_free = !boxes_touch(&here, &taken[j]);
-        fm_label *label = is_free ? chart_add_label(chart) : NULL;
+    for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
+        box here = { places[i][0], places[i][1], places[i][0] + width, places[i][1] + LABEL_PX };
+        fm_label *label = is_free(chart, taken, &here) ? chart_add_label(chart) : NULL;
         if (label == NULL)
             continue;
-        *label = (fm_label){ .x_px = here.x0, .y_px = here.y0, .size_px = 10 };
+        *label = (fm_label){ .x_px = here.x0, .y_px = here.y0, .size_px = LABEL_PX };
         snprintf(label->text, sizeof label->text, "%s", text);
-        taken[(*taken_count)++] = here;
+        taken->boxes[taken->count++] = here;
         return;
     }
 }
 
-static void add_labels(fm_chart *chart, const fm_group *group, box *taken, double bytes_most)
+static void add_labels(fm_chart *chart, const fm_group *group, box *boxes, double bytes_most)
 {
-    size_t taken_count = 0;
-    for (size_t i = 0; i < group->count; i++) {
-        const fm_case_row *result = group->cases[i];
-        if (!has_point(result))
-            continue;
-        double x = axis_position(&chart->x, error_of(result)),
-               half = marker_px(result, bytes_most) / 2;
-        double y = axis_position(&chart->y, result->frame_ms);
-        taken[taken_count++] = (box){ x - half, y - half, x + half, y + half };
-    }
+    taken_boxes taken = { .boxes = boxes };
+    for (size_t i = 0; i < group->count; i++)
+        if (has_point(group->cases[i]))
+            taken.boxes[taken.count++] = marker_box(chart, group->cases[i], bytes_most);
     for (size_t i = 0; i < group->count; i++) {
         const fm_case_row *result = group->cases[i];
         if (!has_point(result) || !group_uses_k(group, result))
             continue;
         char text[24];
+        box marker = marker_box(chart, result, bytes_most);
         snprintf(text, sizeof text, "k=%.0f", result->k);
-        add_label(chart, taken, &taken_count, axis_position(&chart->x, error_of(result)),
-                  axis_position(&chart->y, result->frame_ms), marker_px(result, bytes_most), text);
+        add_label(chart, &taken, &marker, text);
     }
 }
 
@@ -186,7 +203,7 @@ static size_t fit_axes(fm_chart *chart, const fm_group *group, double *values)
     chart->x = (fm_axis){ .title = "error: RMSE against the picture of all fragments",
                           .scale = FM_SCALE_LOG,
                           .zero_below = FM_EXACT_RMSE,
-                          .length_px = PLOT_WIDTH_PX };
+                          .length_px = plot_width_px };
     axis_fit(&chart->x, values, points);
     for (size_t i = 0; i < group->count; i++)
         if (has_point(group->cases[i])) {
@@ -195,7 +212,7 @@ static size_t fit_axes(fm_chart *chart, const fm_group *group, double *values)
             values[times++] = group->cases[i]->frame_ms_high;
         }
     chart->y =
-        (fm_axis){ .title = "frame time [ms]", .scale = FM_SCALE_LOG, .length_px = PLOT_HEIGHT_PX };
+        (fm_axis){ .title = "frame time [ms]", .scale = FM_SCALE_LOG, .length_px = plot_height_px };
     axis_fit(&chart->y, values, times);
     return points;
 }

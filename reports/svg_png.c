@@ -6,14 +6,14 @@
 #include <stdint.h>
 #include <string.h>
 
-static const double LARGEST_PX = 16384;
+static const double largest_px = 16384;
 
 static fm_status render(const char *path, RsvgHandle *handle, double zoom, fm_error *err)
 {
     fm_status status = FM_OK;
     double width = 0, height = 0;
     if (!rsvg_handle_get_intrinsic_size_in_pixels(handle, &width, &height) || !(width >= 1) ||
-        !(height >= 1) || width * zoom > LARGEST_PX || height * zoom > LARGEST_PX)
+        !(height >= 1) || width * zoom > largest_px || height * zoom > largest_px)
         return fm_fail(err, FM_INVALID, "%s: a chart of %g x %g pixels", path, width, height);
     cairo_surface_t *surface = cairo_image_surface_create(
         CAIRO_FORMAT_RGB24, (int)ceil(width * zoom), (int)ceil(height * zoom));

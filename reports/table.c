@@ -20,16 +20,15 @@ static fm_status read_quoted(reader *in, fm_error *err)
 {
     uint32_t opened = in->line;
     in->read++;
-    for (; in->read < in->end; in->read++) {
-        if (*in->read == '"') {
-            if (in->read + 1 == in->end || in->read[1] != '"') {
-                in->read++;
-                return FM_OK;
-            }
+    while (in->read < in->end) {
+        bool is_quote = *in->read == '"';
+        if (is_quote && (in->read + 1 == in->end || in->read[1] != '"')) {
             in->read++;
+            return FM_OK;
         }
+        in->read += is_quote; /* two quotes stand for one */
         in->line += *in->read == '\n';
-        *in->write++ = *in->read;
+        *in->write++ = *in->read++;
     }
     return fm_fail(err, FM_INVALID, "%s:%u: a quote is opened and never closed", in->path, opened);
 }
@@ -72,16 +71,16 @@ static fm_status read_cell(char **cell, reader *in, fm_error *err)
 
 static fm_status read_header(fm_table *table, reader *in, fm_error *err)
 {
-    const char *names[FM_TABLE_COLUMNS];
+    const char *names[FM_TABLE_COLUMNS] = { NULL };
     do {
-        char *name;
+        char *name = NULL;
         if (table->column_count == FM_TABLE_COLUMNS)
             return fm_fail(err, FM_INVALID, "%s:1: more than %d columns", in->path,
                            FM_TABLE_COLUMNS);
         fm_status status = read_cell(&name, in, err);
         if (status != FM_OK)
             return status;
-        if (name[0] == '\0')
+        if (name == NULL || name[0] == '\0')
             return fm_fail(err, FM_INVALID, "%s:1: column %zu has no name", in->path,
                            table->column_count + 1);
         for (size_t i = 0; i < table->column_count; i++)
@@ -103,7 +102,7 @@ static fm_status read_row(fm_table *table, reader *in, fm_error *err)
     const char **cells = table->cells + table->row_count * table->column_count;
     size_t count = 0;
     do {
-        char *cell;
+        char *cell = NULL;
         fm_status status = read_cell(&cell, in, err);
         if (status != FM_OK)
             return status;
