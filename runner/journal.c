@@ -29,7 +29,7 @@ static const char *const event_name[] = {
 _Static_assert(sizeof event_name / sizeof event_name[0] == FM_JOURNAL_EVENT_COUNT, "one each");
 
 /* How every journal begins; json_dumps keeps the order of json_pack. */
-static const char PLAN_LINE_START[] = "{\"event\":\"plan\"";
+static const char plan_line_start[] = "{\"event\":\"plan\"";
 
 static fm_status write_line(fm_journal *journal, json_t *line, fm_error *err)
 {
@@ -126,12 +126,12 @@ static fm_status open_plan(fm_journal *journal, bool *is_damaged, fm_error *err)
     if (file == NULL)
         return fm_fail(err, FM_IO, "%s: %s", journal->path, strerror(errno));
     const ssize_t length = getline(&text, &room, file);
-    const size_t start_length = sizeof PLAN_LINE_START - 1;
+    const size_t start_length = sizeof plan_line_start - 1;
     if (length > 0 && text[length - 1] == '\n') {
         journal->begin = (off_t)length;
         status = check_plan(journal, text, is_damaged, err);
     } else if (length > 0 &&
-               strncmp(text, PLAN_LINE_START,
+               strncmp(text, plan_line_start,
                        (size_t)length < start_length ? (size_t)length : start_length) != 0)
         status = damaged(journal, is_damaged, 1, "not the journal of a fragmark run", err);
     else if (ftruncate(journal->fd, 0) != 0)

@@ -19,7 +19,7 @@ enum {
     LOG_TAIL_BYTES = 400,   /* of a dead worker's last words in a message */
     EXIT_NOT_EXECUTED = 127 /* as shells use it */
 };
-static const size_t RESULT_MAX_BYTES = (size_t)256 << 20;
+static const size_t result_max_bytes = (size_t)256 << 20;
 
 /* How a process ended. */
 typedef struct ending {
@@ -283,7 +283,7 @@ static json_t *read_result(const ending *end, const fm_launch_desc *desc, off_t 
     json_t *result = NULL;
     if (end->is_timed_out || !WIFEXITED(end->wait_status) || access(desc->result, R_OK) != 0)
         return result_of_death(end, desc, log_from);
-    if (text_read_file(&bytes, &count, desc->result, RESULT_MAX_BYTES, &below) != FM_OK)
+    if (text_read_file(&bytes, &count, desc->result, result_max_bytes, &below) != FM_OK)
         return launch_result("crash", below.message);
     result = json_loadb(bytes, count, JSON_REJECT_DUPLICATES, &fault);
     free(bytes);

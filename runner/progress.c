@@ -6,7 +6,7 @@
 
 #include "stats.h"
 
-static const double PLAIN_INTERVAL_S = 10.0;
+static const double plain_interval_s = 10.0;
 
 static double now_seconds(void)
 {
@@ -55,7 +55,7 @@ void progress_tick(fm_progress *progress)
 {
     const double now = now_seconds();
     if (progress->out != NULL &&
-        (progress->is_terminal || now - progress->written_s >= PLAIN_INTERVAL_S))
+        (progress->is_terminal || now - progress->written_s >= plain_interval_s))
         write_state(progress, now);
 }
 

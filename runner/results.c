@@ -17,7 +17,7 @@ static const char *const sample_name[] = {
 };
 _Static_assert(sizeof sample_name / sizeof sample_name[0] == FM_SAMPLE_METRIC_COUNT, "one each");
 
-static const char SAMPLES_HEADER[] = "schema,run_id,case_id,launch,frame,metric,value,unit\n";
+static const char samples_header[] = "schema,run_id,case_id,launch,frame,metric,value,unit\n";
 
 void csv_add(fm_text *text, const char *field)
 {
@@ -97,7 +97,7 @@ static fm_status begin_samples(fm_results *results, fm_error *err)
         open(results->samples_path, O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666);
     if (results->samples_fd < 0)
         return fm_fail(err, FM_IO, "%s: %s", results->samples_path, strerror(errno));
-    text_add(&header, "%s", SAMPLES_HEADER);
+    text_add(&header, "%s", samples_header);
     const fm_status status = append(results, &header, err);
     text_free(&header);
     return status;

@@ -312,7 +312,7 @@ static fm_status measure(run_state *run, size_t case_index, uint32_t launch, fm_
     if (status != FM_OK)
         return status;
     settings_text(k, &of->settings, key_find("k"));
-    snprintf(current, sizeof current, "%.40s k=%.8s %.30s %.30s %s, launch %u", of->method, k,
+    snprintf(current, sizeof current, "%.32s k=%.8s %.30s %.30s %.20s, launch %u", of->method, k,
              of->scene, of->device, of->feed, launch);
     progress_begin(&run->progress, current);
     const fm_request request = {

@@ -7,7 +7,7 @@
 #include "stats.h"
 
 enum { SAMPLES_WANTED = 5 };           /* fewer at full clock: no statement */
-static const double CLOCK_SLACK = 1.4; /* a canary above this many of the fastest is off clock */
+static const double clock_slack = 1.4; /* a canary above this many of the fastest is off clock */
 
 /* What the columns of one row read. */
 typedef struct row_state {
@@ -311,7 +311,7 @@ static void find_off_clock(bool *is_off_clock, const row_state *row)
     const uint32_t frames = row->results->plan->frames;
     if (!row->result->has_gpu_clock)
         return;
-    const double limit = CLOCK_SLACK * fastest_canary(row->results, row->measured->device);
+    const double limit = clock_slack * fastest_canary(row->results, row->measured->device);
     for (size_t i = 0; i < row->result->sample_count; i++) {
         const fm_sample *sample = &row->result->samples[i];
         if (sample->metric == FM_SAMPLE_CANARY_NS && sample->value > limit &&

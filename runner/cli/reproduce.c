@@ -83,10 +83,13 @@ static fm_status no_figure(const fm_figure_list *list, const char *name, fm_erro
     return FM_INVALID;
 }
 
-/* Marks what the arguments mean; a name that means nothing is an error. */
+/* Marks what the arguments mean; a name that means nothing is an error. is_chosen: one for each
+ * figure, or NULL when there was no memory for it. */
 static fm_status choose(bool *is_chosen, const fm_names *wanted, const fm_figure_list *list,
                         fm_error *err)
 {
+    if (is_chosen == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "no memory for %zu figures", list->count);
     for (size_t i = 0; i < wanted->count; i++) {
         bool is_known = false;
         for (size_t j = 0; j < list->count; j++)
@@ -199,10 +202,10 @@ int cli_reproduce(const fm_cli *cli, int argc, char **argv)
     bool *is_chosen = NULL;
     argp_parse(&argp, argc, argv, 0, NULL, &arguments);
     fm_status status = figures_list(&list, &err);
-    if (status == FM_OK && (is_chosen = calloc(list.count + 1, sizeof *is_chosen)) == NULL)
-        status = fm_fail(&err, FM_NO_MEMORY, "no memory for %zu figures", list.count);
-    if (status == FM_OK)
+    if (status == FM_OK) {
+        is_chosen = calloc(list.count + 1, sizeof *is_chosen);
         status = choose(is_chosen, &arguments.positional, &list, &err);
+    }
     if (status == FM_OK)
         status = open_specs(&specs, &err);
     if (status == FM_OK)
