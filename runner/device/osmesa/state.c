@@ -65,7 +65,7 @@ static void apply_stencil(const fm_gl *gl, const fm_state *state, uint32_t itera
 
 static void apply_samples(const fm_gl *gl, const fm_state *state, uint32_t iteration)
 {
-    const uint32_t shift = state->sample_mask_step * iteration;
+    const uint64_t shift = (uint64_t)state->sample_mask_step * iteration;
     if (state->sample_mask == 0) {
         gl->Disable(GL_SAMPLE_MASK);
         return;
