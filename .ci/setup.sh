@@ -52,7 +52,9 @@ install_packages() {
         say "set-up: no dpkg here; install what packages.txt lists by your system's own names"
         return 0
     fi
-    mapfile -t missing < <(packages_missing "$@")
+    # Names hold no blanks; and no <( ) here, which needs a /dev/fd that bare systems lack.
+    # shellcheck disable=SC2207
+    missing=($(packages_missing "$@"))
     if [ "${#missing[@]}" -eq 0 ]; then
         say "set-up: all packages are installed"
         return 0
@@ -62,7 +64,8 @@ install_packages() {
         as_root env DEBIAN_FRONTEND=noninteractive \
             apt-get install -q -y --no-install-recommends "${missing[@]}" >&2 || status=$?
     if [ "$status" -ne 0 ]; then
-        mapfile -t missing < <(packages_missing "$@")
+        # shellcheck disable=SC2207
+        missing=($(packages_missing "$@"))
         say "set-up: could not install the packages; as an administrator run:"
         say "  apt-get update && apt-get install -y --no-install-recommends ${missing[*]}"
         return 2
