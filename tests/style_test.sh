@@ -5,9 +5,9 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 failed=0
 
-mapfile -t sources < <(find methods generators runner reports tests \
-    -name '*.[ch]' -o -name '*.cpp' | sort)
-mapfile -t shaders < <(find methods runner -name '*.glsl' | sort)
+mapfile -t sources <<<"$(find methods generators runner reports tests \
+    -name '*.[ch]' -o -name '*.cpp' | sort)"
+mapfile -t shaders <<<"$(find methods tests -name '*.glsl' | sort)"
 
 if command -v clang-format >/dev/null; then
     for file in "${sources[@]}"; do
