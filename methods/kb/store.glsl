@@ -1,19 +1,18 @@
 #include "common/array.glsl"
 
-// Read all k, let the new fragment sink to its place, write all k back. As published nothing keeps two
-// fragments of a pixel apart: both may read the same list, and then one of them is lost or doubled.
+// The new fragment sinks through the ascending list; what it displaces sinks on. As published nothing
+// keeps two fragments of a pixel apart: both may read the same list, and then one of them is lost or
+// doubled. The published code reads all k targets, then writes all k; here what does not change is
+// not written back.
 void store(uvec2 pixel, float depth, uint colour)
 {
-    uvec2 nearest[K];
     uvec2 sinking = fm_pack(depth, colour);
-    FM_LOOP for (uint i = 0u; i < K; ++i)
-        nearest[i] = fragments[array_slot(pixel, i, K)];
     FM_LOOP for (uint i = 0u; i < K; ++i) {
-        uvec2 item = nearest[i];
-        bool is_nearer = sinking.x <= item.x;
-        nearest[i] = is_nearer ? sinking : item;
-        sinking = is_nearer ? item : sinking;
+        uint at = array_slot(pixel, i, K);
+        uvec2 item = fragments[at];
+        if (sinking.x <= item.x) {
+            fragments[at] = sinking;
+            sinking = item;
+        }
     }
-    FM_LOOP for (uint i = 0u; i < K; ++i)
-        fragments[array_slot(pixel, i, K)] = nearest[i];
 }

@@ -1,0 +1,213 @@
+/* What the files of this folder share.
+ *
+ *   vulkan.c      the table of functions; list, open, close
+ *   instance.c    the loader's instance, validation, the devices it offers
+ *   caps.c        features that are enabled and what fm_device_caps says
+ *   memory.c      buffers and their memory
+ *   image.c       images
+ *   transfer.c    reads and writes through staging, commands outside frames
+ *   shader.c      GLSL to SPIR-V
+ *   pipeline.c    pipelines; state.c: fixed-function state from the interface's enums
+ *   barrier.c     which accesses have to wait for which
+ *   frame.c       recording, submitting, timers and queries
+ *   command.c     fill, update, clear, dispatch, draw; descriptor.c: what they bind
+ *
+ * Images stay in VK_IMAGE_LAYOUT_GENERAL all their life: barriers are then memory barriers only. */
+#ifndef FM_VULKAN_CONTEXT_H
+#define FM_VULKAN_CONTEXT_H
+
+#include <vulkan/vulkan.h>
+
+#include "device/device.h"
+
+enum {
+    VULKAN_TIMESTAMPS_MAX = 2 * 4096, /* two for each interval of a frame */
+    VULKAN_OCCLUSIONS_MAX = 4096,     /* draws with a query in a frame */
+    VULKAN_DEVICES_MAX = 16,
+};
+
+/* No wait is longer: a frame that takes a minute has hung. */
+#define VULKAN_WAIT_NS (60ull * 1000 * 1000 * 1000)
+
+/* The accesses to a resource since `epoch` began; older ones are complete and visible. */
+typedef struct vulkan_access {
+    uint64_t epoch;
+    VkPipelineStageFlags2 write_stages;
+    VkAccessFlags2 write_access;
+    VkPipelineStageFlags2 read_stages; /* since that write */
+    /* Where the last barrier has made the write visible. */
+    VkPipelineStageFlags2 visible_stages;
+    VkAccessFlags2 visible_access;
+} vulkan_access;
+
+struct fm_buffer {
+    VkBuffer buffer;
+    VkDeviceMemory memory;
+    void *mapped;   /* NULL: reached through staging */
+    bool is_cached; /* host reads of `mapped` are fast */
+    VkDeviceAddress address;
+    uint64_t bytes; /* as asked */
+    fm_owner owner;
+    vulkan_access access;
+};
+
+struct fm_image_resource {
+    VkImage image;
+    VkDeviceMemory memory;
+    VkImageView target_view; /* layer 0, all aspects */
+    VkImageView shader_view; /* all layers, colour or depth */
+    VkImageAspectFlags aspects;
+    uint32_t width_px, height_px;
+    uint64_t bytes; /* as booked */
+    fm_owner owner;
+    vulkan_access access;
+};
+
+struct fm_pipeline {
+    VkPipeline pipeline;
+    VkPipelineLayout layout;
+    VkDescriptorSetLayout set_layout;
+    VkPipelineBindPoint bind_point;
+};
+
+/* Queries of one kind, given out one after the other during a frame. slot[i] is the caller's timer
+ * or query that result i is added to. */
+typedef struct vulkan_query_pool {
+    VkQueryPool pool;
+    uint32_t count, capacity;
+    uint8_t *slot;
+} vulkan_query_pool;
+
+/* Descriptor pools of a frame, reset when the next begins. */
+typedef struct vulkan_descriptors {
+    VkDescriptorPool *pools;
+    uint32_t count, current;
+} vulkan_descriptors;
+
+typedef struct vulkan_validation {
+    VkDebugUtilsMessengerEXT messenger;
+    uint32_t errors;
+    char first[1024];
+} vulkan_validation;
+
+typedef struct vulkan {
+    fm_device base;
+    VkInstance instance;
+    vulkan_validation validation;
+    VkPhysicalDevice physical;
+    VkPhysicalDeviceMemoryProperties memory;
+    VkPhysicalDeviceLimits limits;
+    VkDevice device;
+    VkQueue queue;
+    uint32_t queue_family;
+    VkCommandPool commands;
+    VkCommandBuffer frame_commands, transfer_commands;
+    VkFence fence;
+    VkSampler sampler; /* nearest: images are read with texelFetch */
+    fm_buffer *staging;
+    vulkan_descriptors descriptors;
+    vulkan_query_pool timestamps, occlusions;
+    uint64_t timestamp_mask;
+    bool can_store_multisampled, can_query_precisely;
+    bool no_timers;
+    bool timers_overflowed; /* told by frame_end: timers return nothing */
+    bool has_hung; /* the GPU did not answer: its objects are still in use and are left alone */
+    uint64_t epoch;
+    uint64_t frame_start_ns;
+} vulkan;
+
+/* "WHAT: VK_ERROR_..." with the status that fits. */
+fm_status vulkan_fail(fm_error *err, VkResult result, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* instance.c. The messenger counts into *validation, which must outlive the instance. */
+fm_status vulkan_instance_create(VkInstance *instance, vulkan_validation *validation,
+                                 bool wants_validation, fm_error *err);
+void vulkan_instance_destroy(VkInstance instance, vulkan_validation *validation);
+/* Devices with Vulkan 1.3 and a queue for graphics and compute, GPUs first. */
+fm_status vulkan_find_devices(VkPhysicalDevice found[VULKAN_DEVICES_MAX], size_t *count,
+                              VkInstance instance, fm_error *err);
+uint32_t vulkan_queue_family(VkPhysicalDevice physical); /* UINT32_MAX: none */
+
+/* caps.c: the logical device with all features that shaders here may use. */
+fm_status vulkan_device_create(vulkan *self, fm_error *err);
+
+/* memory.c */
+fm_status vulkan_memory_bind_image(VkDeviceMemory *memory, const vulkan *self, VkImage image,
+                                   const char *name, fm_error *err);
+fm_status vulkan_staging_create(fm_buffer **staging, const vulkan *self, fm_error *err);
+void vulkan_staging_destroy(const vulkan *self, fm_buffer *staging);
+fm_status vulkan_buffer_create(fm_buffer **buffer, fm_device *device, const fm_buffer_desc *desc,
+                               fm_error *err);
+void vulkan_buffer_destroy(fm_device *device, fm_buffer *buffer);
+uint64_t vulkan_buffer_address(const fm_buffer *buffer);
+
+/* transfer.c */
+fm_status vulkan_buffer_write(fm_device *device, fm_buffer *buffer, uint64_t offset_bytes,
+                              const void *bytes, uint64_t count, fm_error *err);
+fm_status vulkan_buffer_read(fm_device *device, fm_buffer *buffer, uint64_t offset_bytes,
+                             void *bytes, uint64_t count, fm_error *err);
+fm_status vulkan_transfer_begin(vulkan *self, fm_error *err);
+fm_status vulkan_transfer_end(vulkan *self, fm_error *err);
+/* Ends the commands, submits them and waits. */
+fm_status vulkan_submit(vulkan *self, VkCommandBuffer commands, const char *what, fm_error *err);
+
+/* image.c */
+fm_status vulkan_image_create(fm_image_resource **image, fm_device *device,
+                              const fm_image_desc *desc, fm_error *err);
+void vulkan_image_destroy(fm_device *device, fm_image_resource *image);
+VkFormat vulkan_format(fm_format format);
+bool vulkan_format_is_integer(fm_format format);
+bool vulkan_format_has_stencil(fm_format format);
+/* Sample counts that images of all formats from first to last can have; bit s: s samples. */
+uint32_t vulkan_find_samples(VkPhysicalDevice physical, fm_format first, fm_format last);
+
+/* shader.c: one stage to SPIR-V and a module. name is the pipeline's. */
+fm_status vulkan_shader_create(VkShaderModule *module, const vulkan *self, const char *name,
+                               VkShaderStageFlagBits stage, const char *source, fm_error *err);
+
+/* state.c: fixed-function state. */
+VkPipelineDepthStencilStateCreateInfo vulkan_depth_stencil(const fm_pipeline_desc *desc);
+VkSampleMask vulkan_sample_mask(const fm_pipeline_desc *desc);
+VkPipelineColorBlendAttachmentState vulkan_blend(const fm_target_desc *target);
+VkFormat vulkan_vertex_format(const fm_vertex_attribute *attribute);
+
+/* pipeline.c */
+fm_status vulkan_pipeline_create(fm_pipeline **pipeline, fm_device *device,
+                                 const fm_pipeline_desc *desc, fm_error *err);
+void vulkan_pipeline_destroy(fm_device *device, fm_pipeline *pipeline);
+
+/* barrier.c. Add what a command will do to its resources, then record. */
+VkMemoryBarrier2 vulkan_barrier_begin(void);
+void vulkan_barrier_add(VkMemoryBarrier2 *barrier, vulkan_access *access, uint64_t epoch,
+                        VkPipelineStageFlags2 stages, VkAccessFlags2 accesses);
+void vulkan_barrier_add_binds(VkMemoryBarrier2 *barrier, uint64_t epoch, const fm_bind *binds,
+                              uint32_t count, VkPipelineStageFlags2 stages);
+void vulkan_barrier_record(VkCommandBuffer commands, const VkMemoryBarrier2 *barrier);
+/* Everything before is complete and visible to everything after; starts a new epoch. */
+void vulkan_barrier_full(vulkan *self, VkCommandBuffer commands);
+
+/* descriptor.c */
+fm_status vulkan_descriptors_bind(vulkan *self, const fm_pipeline *pipeline, const fm_bind *binds,
+                                  uint32_t count, fm_error *err);
+fm_status vulkan_descriptors_reset(vulkan *self, fm_error *err);
+void vulkan_descriptors_destroy(vulkan *self);
+
+/* frame.c */
+fm_status vulkan_queries_create(vulkan *self, fm_error *err);
+void vulkan_queries_destroy(vulkan *self);
+fm_status vulkan_frame_begin(fm_device *device, fm_error *err);
+fm_status vulkan_frame_end(fm_device *device, fm_frame_times *times, fm_error *err);
+void vulkan_timer_begin(fm_device *device, uint32_t timer);
+void vulkan_timer_end(fm_device *device, uint32_t timer);
+
+/* command.c */
+void vulkan_fill(fm_device *device, fm_buffer *buffer, uint32_t word);
+void vulkan_update(fm_device *device, fm_buffer *buffer, uint64_t offset_bytes, const void *bytes,
+                   uint32_t count);
+void vulkan_image_clear(fm_device *device, fm_image_resource *image, const float colour[4],
+                        float depth, uint32_t stencil);
+fm_status vulkan_dispatch(fm_device *device, const fm_dispatch *dispatch, fm_error *err);
+fm_status vulkan_draw(fm_device *device, const fm_draw *draw, fm_error *err);
+
+#endif

@@ -1,0 +1,244 @@
+#include <assert.h>
+#include <stdlib.h>
+
+#include "device/vulkan/context.h"
+
+enum { SAMPLES_MAX = 16 };
+
+typedef struct format_traits {
+    VkFormat format;
+    bool is_integer, has_depth, has_stencil;
+} format_traits;
+
+static const format_traits traits[] = {
+    [FM_FORMAT_NONE] = { .format = VK_FORMAT_UNDEFINED },
+    [FM_FORMAT_R32UI] = { .format = VK_FORMAT_R32_UINT, .is_integer = true },
+    [FM_FORMAT_RG32UI] = { .format = VK_FORMAT_R32G32_UINT, .is_integer = true },
+    [FM_FORMAT_RGBA32UI] = { .format = VK_FORMAT_R32G32B32A32_UINT, .is_integer = true },
+    [FM_FORMAT_R32F] = { .format = VK_FORMAT_R32_SFLOAT },
+    [FM_FORMAT_RG32F] = { .format = VK_FORMAT_R32G32_SFLOAT },
+    [FM_FORMAT_RGBA32F] = { .format = VK_FORMAT_R32G32B32A32_SFLOAT },
+    [FM_FORMAT_RGBA8] = { .format = VK_FORMAT_R8G8B8A8_UNORM },
+    [FM_FORMAT_D32F] = { .format = VK_FORMAT_D32_SFLOAT, .has_depth = true },
+    [FM_FORMAT_D32F_S8] = { .format = VK_FORMAT_D32_SFLOAT_S8_UINT,
+                            .has_depth = true,
+                            .has_stencil = true },
+};
+_Static_assert(sizeof traits / sizeof traits[0] == FM_FORMAT_COUNT, "one a format");
+
+VkFormat vulkan_format(fm_format format)
+{
+    return traits[format].format;
+}
+
+bool vulkan_format_is_integer(fm_format format)
+{
+    return traits[format].is_integer;
+}
+
+bool vulkan_format_has_stencil(fm_format format)
+{
+    return traits[format].has_stencil;
+}
+
+static VkImageUsageFlags usage_of(fm_format format)
+{
+    return VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT |
+           (traits[format].has_depth ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
+                                     : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
+}
+
+static bool can_make(VkImageFormatProperties *limits, VkPhysicalDevice physical, fm_format format,
+                     VkImageUsageFlags usage)
+{
+    return vkGetPhysicalDeviceImageFormatProperties(physical, traits[format].format,
+                                                    VK_IMAGE_TYPE_2D, VK_IMAGE_TILING_OPTIMAL,
+                                                    usage, 0, limits) == VK_SUCCESS;
+}
+
+uint32_t vulkan_find_samples(VkPhysicalDevice physical, fm_format first, fm_format last)
+{
+    uint32_t common = ~0u;
+    for (fm_format format = first; format <= last; format++) {
+        VkImageFormatProperties limits = { .sampleCounts = 0 };
+        uint32_t bits = 0;
+        if (can_make(&limits, physical, format, usage_of(format))) {
+            for (uint32_t samples = 1; samples <= SAMPLES_MAX; samples *= 2) {
+                if ((limits.sampleCounts & samples) != 0) /* the flags' values are the counts */
+                    bits |= 1u << samples;
+            }
+        }
+        common &= bits;
+    }
+    return common;
+}
+
+static fm_status check_image(const VkImageFormatProperties *limits, const fm_image_desc *desc,
+                             uint32_t samples, uint32_t layers, fm_error *err)
+{
+    if (desc->width_px > limits->maxExtent.width || desc->height_px > limits->maxExtent.height)
+        return fm_fail(err, FM_UNSUPPORTED,
+                       "image '%s': %u x %u pixels, this device's most are %u x %u", desc->name,
+                       desc->width_px, desc->height_px, limits->maxExtent.width,
+                       limits->maxExtent.height);
+    if (layers > limits->maxArrayLayers)
+        return fm_fail(err, FM_UNSUPPORTED, "image '%s': %u layers, this device's most are %u",
+                       desc->name, layers, limits->maxArrayLayers);
+    if ((limits->sampleCounts & samples) == 0)
+        return fm_fail(err, FM_UNSUPPORTED, "image '%s': %u samples are not possible here",
+                       desc->name, samples);
+    return FM_OK;
+}
+
+/* The usage, with stores from shaders if this format and number of samples allow them. */
+static fm_status find_usage(VkImageUsageFlags *usage, const vulkan *self, const fm_image_desc *desc,
+                            uint32_t samples, uint32_t layers, fm_error *err)
+{
+    VkImageFormatProperties limits;
+    *usage = usage_of(desc->format);
+    if (!can_make(&limits, self->physical, desc->format, *usage))
+        return fm_fail(err, FM_UNSUPPORTED, "image '%s': this device lacks its format", desc->name);
+    const fm_status status = check_image(&limits, desc, samples, layers, err);
+    if (status != FM_OK || traits[desc->format].has_depth)
+        return status;
+    const bool may_store = samples == 1 || self->can_store_multisampled;
+    if (may_store &&
+        can_make(&limits, self->physical, desc->format, *usage | VK_IMAGE_USAGE_STORAGE_BIT) &&
+        (limits.sampleCounts & samples) != 0)
+        *usage |= VK_IMAGE_USAGE_STORAGE_BIT;
+    return FM_OK;
+}
+
+static VkResult create_view(VkImageView *view, const vulkan *self, const fm_image_resource *image,
+                            fm_format format, VkImageAspectFlags aspects, uint32_t layers)
+{
+    const VkImageViewCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
+        .image = image->image,
+        .viewType = layers > 1 ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D,
+        .format = traits[format].format,
+        .subresourceRange = { .aspectMask = aspects, .levelCount = 1, .layerCount = layers },
+    };
+    return vkCreateImageView(self->device, &info, NULL, view);
+}
+
+static void release(const vulkan *self, fm_image_resource *image)
+{
+    if (image != NULL && !self->has_hung) {
+        vkDestroyImageView(self->device, image->target_view, NULL);
+        vkDestroyImageView(self->device, image->shader_view, NULL);
+        vkDestroyImage(self->device, image->image, NULL);
+        vkFreeMemory(self->device, image->memory, NULL);
+    }
+    free(image);
+}
+
+static fm_status to_general_layout(vulkan *self, const fm_image_resource *image, fm_error *err)
+{
+    const VkImageMemoryBarrier2 barrier = {
+        .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+        .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+        .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+        .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT,
+        .oldLayout = VK_IMAGE_LAYOUT_UNDEFINED,
+        .newLayout = VK_IMAGE_LAYOUT_GENERAL,
+        .image = image->image,
+        .subresourceRange = { .aspectMask = image->aspects,
+                              .levelCount = 1,
+                              .layerCount = VK_REMAINING_ARRAY_LAYERS },
+    };
+    const VkDependencyInfo info = { .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
+                                    .imageMemoryBarrierCount = 1,
+                                    .pImageMemoryBarriers = &barrier };
+    const fm_status status = vulkan_transfer_begin(self, err);
+    if (status != FM_OK)
+        return status;
+    vkCmdPipelineBarrier2(self->transfer_commands, &info);
+    return vulkan_transfer_end(self, err);
+}
+
+static VkResult create_views(fm_image_resource *image, const vulkan *self, fm_format format,
+                             uint32_t layers)
+{
+    const VkImageAspectFlags read =
+        traits[format].has_depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+    const VkResult result =
+        create_view(&image->target_view, self, image, format, image->aspects, 1);
+    return result != VK_SUCCESS
+               ? result
+               : create_view(&image->shader_view, self, image, format, read, layers);
+}
+
+static VkImageAspectFlags aspects_of(fm_format format)
+{
+    if (!traits[format].has_depth)
+        return VK_IMAGE_ASPECT_COLOR_BIT;
+    return VK_IMAGE_ASPECT_DEPTH_BIT |
+           (traits[format].has_stencil ? VK_IMAGE_ASPECT_STENCIL_BIT : 0u);
+}
+
+/* Creates the image, its memory and its views into *image, which the caller releases on failure. */
+static fm_status make(fm_image_resource *image, vulkan *self, const fm_image_desc *desc,
+                      VkImageUsageFlags usage, uint32_t layers, fm_error *err)
+{
+    const VkImageCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
+        .imageType = VK_IMAGE_TYPE_2D,
+        .format = traits[desc->format].format,
+        .extent = { desc->width_px, desc->height_px, 1 },
+        .mipLevels = 1,
+        .arrayLayers = layers,
+        .samples = (VkSampleCountFlagBits)(desc->samples > 1 ? desc->samples : 1),
+        .usage = usage,
+    };
+    VkResult result = vkCreateImage(self->device, &info, NULL, &image->image);
+    if (result != VK_SUCCESS)
+        return vulkan_fail(err, result, "image '%s'", desc->name);
+    const fm_status status =
+        vulkan_memory_bind_image(&image->memory, self, image->image, desc->name, err);
+    if (status != FM_OK)
+        return status;
+    result = create_views(image, self, desc->format, layers);
+    if (result != VK_SUCCESS)
+        return vulkan_fail(err, result, "image '%s': view", desc->name);
+    return to_general_layout(self, image, err);
+}
+
+fm_status vulkan_image_create(fm_image_resource **image, fm_device *device,
+                              const fm_image_desc *desc, fm_error *err)
+{
+    vulkan *self = (vulkan *)device;
+    const uint32_t layers = desc->layers > 1 ? desc->layers : 1;
+    const uint32_t samples = desc->samples > 1 ? desc->samples : 1;
+    VkImageUsageFlags usage = 0;
+    *image = NULL;
+    fm_status status = find_usage(&usage, self, desc, samples, layers, err);
+    if (status != FM_OK)
+        return status;
+    fm_image_resource *made = calloc(1, sizeof *made);
+    if (made == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "image '%s': %zu bytes", desc->name, sizeof *made);
+    made->aspects = aspects_of(desc->format);
+    made->width_px = desc->width_px;
+    made->height_px = desc->height_px;
+    made->owner = desc->owner;
+    made->bytes = (uint64_t)desc->width_px * desc->height_px * layers * samples *
+                  fm_format_bytes(desc->format);
+    status = make(made, self, desc, usage, layers, err);
+    if (status != FM_OK)
+        goto out;
+    ledger_add(&device->ledger, made->owner, made->bytes);
+    *image = made;
+    made = NULL;
+out:
+    release(self, made);
+    return status;
+}
+
+void vulkan_image_destroy(fm_device *device, fm_image_resource *image)
+{
+    if (image == NULL)
+        return;
+    ledger_remove(&device->ledger, image->owner, image->bytes);
+    release((vulkan *)device, image);
+}

@@ -1,0 +1,111 @@
+#include <shaderc/shaderc.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "device/vulkan/context.h"
+
+enum { LOG_MAX_BYTES = 1024, QUOTE_MAX_BYTES = 200 }; /* so that both fit into an fm_error */
+
+#define SOURCE_NAME "glsl" /* messages begin with it: "glsl:LINE: error: ..." */
+
+typedef struct stage_traits {
+    shaderc_shader_kind kind;
+    const char *name;
+} stage_traits;
+
+static stage_traits traits_of(VkShaderStageFlagBits stage)
+{
+    if (stage == VK_SHADER_STAGE_COMPUTE_BIT)
+        return (stage_traits){ shaderc_glsl_compute_shader, "compute" };
+    if (stage == VK_SHADER_STAGE_VERTEX_BIT)
+        return (stage_traits){ shaderc_glsl_vertex_shader, "vertex" };
+    return (stage_traits){ shaderc_glsl_fragment_shader, "fragment" };
+}
+
+/* The line of the first error; 0: none says. */
+static unsigned find_error_line(const char *log)
+{
+    for (const char *at = log; at != NULL && *at != '\0';) {
+        unsigned line = 0;
+        if (sscanf(at, SOURCE_NAME ":%u: error", &line) == 1 && line > 0)
+            return line;
+        at = strchr(at, '\n');
+        at = at != NULL ? at + 1 : NULL;
+    }
+    return 0;
+}
+
+/* Copies line number `line`, from 1, without its indentation. */
+static void quote_line(char quote[QUOTE_MAX_BYTES], const char *source, unsigned line)
+{
+    const char *at = source;
+    for (unsigned i = 1; i < line && at != NULL; i++) {
+        at = strchr(at, '\n');
+        at = at != NULL ? at + 1 : NULL;
+    }
+    if (at == NULL)
+        at = "";
+    at += strspn(at, " \t");
+    snprintf(quote, QUOTE_MAX_BYTES, "%.*s", (int)strcspn(at, "\n"), at);
+}
+
+static fm_status fail_compile(fm_error *err, const char *pipeline, const char *stage,
+                              const char *source, const char *log)
+{
+    char quote[QUOTE_MAX_BYTES];
+    const unsigned line = find_error_line(log);
+    if (line == 0)
+        return fm_fail(err, FM_SHADER, "%s: %s shader: %.*s", pipeline, stage, LOG_MAX_BYTES, log);
+    quote_line(quote, source, line);
+    return fm_fail(err, FM_SHADER, "%s: %s shader, line %u: '%s'\n%.*s", pipeline, stage, line,
+                   quote, LOG_MAX_BYTES, log);
+}
+
+static fm_status create_module(VkShaderModule *module, const vulkan *self, const char *name,
+                               shaderc_compilation_result_t spirv, fm_error *err)
+{
+    const VkShaderModuleCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
+        .codeSize = shaderc_result_get_length(spirv),
+        /* shaderc promises words: its bytes are aligned for them. */
+        .pCode = (const uint32_t *)(const void *)shaderc_result_get_bytes(spirv),
+    };
+    const VkResult result = vkCreateShaderModule(self->device, &info, NULL, module);
+    if (result == VK_SUCCESS)
+        return FM_OK;
+    *module = VK_NULL_HANDLE;
+    return vulkan_fail(err, result, "%s: shader module", name);
+}
+
+/* SPIR-V is not optimised: drivers do that themselves, and compiling takes half the time. */
+fm_status vulkan_shader_create(VkShaderModule *module, const vulkan *self, const char *name,
+                               VkShaderStageFlagBits stage, const char *source, fm_error *err)
+{
+    fm_status status = FM_OK;
+    const stage_traits traits = traits_of(stage);
+    shaderc_compilation_result_t result = NULL;
+    shaderc_compiler_t compiler = shaderc_compiler_initialize();
+    shaderc_compile_options_t options = shaderc_compile_options_initialize();
+    *module = VK_NULL_HANDLE;
+    if (compiler == NULL || options == NULL) {
+        status = fm_fail(err, FM_NO_MEMORY, "%s: the shader compiler does not start", name);
+        goto out;
+    }
+    shaderc_compile_options_set_target_env(options, shaderc_target_env_vulkan,
+                                           shaderc_env_version_vulkan_1_3);
+    shaderc_compile_options_set_optimization_level(options, shaderc_optimization_level_zero);
+    result = shaderc_compile_into_spv(compiler, source, strlen(source), traits.kind, SOURCE_NAME,
+                                      "main", options);
+    if (result == NULL ||
+        shaderc_result_get_compilation_status(result) != shaderc_compilation_status_success) {
+        const char *log = result != NULL ? shaderc_result_get_error_message(result) : "";
+        status = fail_compile(err, name, traits.name, source, log);
+        goto out;
+    }
+    status = create_module(module, self, name, result, err);
+out:
+    shaderc_result_release(result);
+    shaderc_compile_options_release(options);
+    shaderc_compiler_release(compiler);
+    return status;
+}

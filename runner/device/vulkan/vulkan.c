@@ -1,0 +1,225 @@
+#include "device/vulkan/vulkan.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "device/vulkan/context.h"
+#include "text.h"
+
+typedef struct result_traits {
+    VkResult result;
+    fm_status status;
+    const char *name;
+} result_traits;
+
+static const result_traits known_results[] = {
+    { VK_ERROR_OUT_OF_HOST_MEMORY, FM_NO_MEMORY, "out of host memory" },
+    { VK_ERROR_OUT_OF_DEVICE_MEMORY, FM_NO_MEMORY, "out of device memory" },
+    { VK_ERROR_TOO_MANY_OBJECTS, FM_NO_MEMORY, "too many objects" },
+    { VK_ERROR_DEVICE_LOST, FM_DEVICE_LOST, "device lost" },
+    { VK_ERROR_LAYER_NOT_PRESENT, FM_UNSUPPORTED, "layer not present" },
+    { VK_ERROR_EXTENSION_NOT_PRESENT, FM_UNSUPPORTED, "extension not present" },
+    { VK_ERROR_FEATURE_NOT_PRESENT, FM_UNSUPPORTED, "feature not present" },
+    { VK_ERROR_INCOMPATIBLE_DRIVER, FM_UNSUPPORTED, "incompatible driver" },
+    { VK_ERROR_INITIALIZATION_FAILED, FM_UNSUPPORTED, "initialization failed" },
+    { VK_ERROR_FORMAT_NOT_SUPPORTED, FM_UNSUPPORTED, "format not supported" },
+    { VK_ERROR_INVALID_SHADER_NV, FM_SHADER, "the driver's compiler refused the shader" },
+};
+
+fm_status vulkan_fail(fm_error *err, VkResult result, const char *format, ...)
+{
+    result_traits traits = { result, FM_DEVICE_LOST, "the driver failed" };
+    char what[512];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(what, sizeof what, format, arguments);
+    va_end(arguments);
+    for (size_t i = 0; i < sizeof known_results / sizeof known_results[0]; i++) {
+        if (known_results[i].result == result)
+            traits = known_results[i];
+    }
+    return fm_fail(err, traits.status, "%s: %s (VkResult %d)", what, traits.name, (int)result);
+}
+
+static fm_status list_devices(fm_device_entry *entries, size_t *count, fm_error *err)
+{
+    const size_t room = *count;
+    VkInstance instance = VK_NULL_HANDLE;
+    vulkan_validation none = { .errors = 0 };
+    VkPhysicalDevice found[VULKAN_DEVICES_MAX];
+    fm_status status = vulkan_instance_create(&instance, &none, false, err);
+    *count = 0;
+    if (status == FM_OK)
+        status = vulkan_find_devices(found, count, instance, err);
+    if (*count > room)
+        *count = room;
+    for (size_t i = 0; i < *count; i++) {
+        VkPhysicalDeviceProperties properties;
+        vkGetPhysicalDeviceProperties(found[i], &properties);
+        snprintf(entries[i].selector, sizeof entries[i].selector, "vulkan:%zu", i);
+        snprintf(entries[i].name, sizeof entries[i].name, "%.127s", properties.deviceName);
+    }
+    vulkan_instance_destroy(instance, &none);
+    return status == FM_UNSUPPORTED ? FM_OK : status; /* no driver: an empty list */
+}
+
+static bool matches(VkPhysicalDevice physical, size_t index, const char *selector)
+{
+    uint64_t wanted = 0;
+    VkPhysicalDeviceProperties properties;
+    if (text_to_u64(&wanted, selector))
+        return wanted == index;
+    vkGetPhysicalDeviceProperties(physical, &properties);
+    return strcasestr(properties.deviceName, selector) != NULL;
+}
+
+static fm_status fail_choice(fm_error *err, const VkPhysicalDevice *found, size_t count,
+                             const char *selector)
+{
+    char names[1024] = "";
+    size_t length = 0;
+    for (size_t i = 0; i < count && length < sizeof names; i++) {
+        VkPhysicalDeviceProperties properties;
+        vkGetPhysicalDeviceProperties(found[i], &properties);
+        length += (size_t)snprintf(names + length, sizeof names - length, "%s%zu '%s'",
+                                   i > 0 ? ", " : "", i, properties.deviceName);
+    }
+    return fm_fail(err, FM_INVALID, "vulkan:%s: no such device; there is %s", selector, names);
+}
+
+static fm_status choose_device(vulkan *self, const char *selector, fm_error *err)
+{
+    VkPhysicalDevice found[VULKAN_DEVICES_MAX];
+    size_t count = 0;
+    const fm_status status = vulkan_find_devices(found, &count, self->instance, err);
+    if (status != FM_OK)
+        return status;
+    if (count == 0)
+        return fm_fail(err, FM_UNSUPPORTED,
+                       "vulkan: no device with Vulkan 1.3; without a GPU: apt-get install "
+                       "mesa-vulkan-drivers");
+    for (size_t i = 0; i < count; i++) {
+        if (selector == NULL || selector[0] == '\0' || matches(found[i], i, selector)) {
+            self->physical = found[i];
+            self->queue_family = vulkan_queue_family(found[i]);
+            return FM_OK;
+        }
+    }
+    return fail_choice(err, found, count, selector);
+}
+
+static fm_status create_commands(vulkan *self, fm_error *err)
+{
+    VkCommandBuffer buffers[2];
+    const VkCommandPoolCreateInfo pool = {
+        .sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+        .flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT,
+        .queueFamilyIndex = self->queue_family,
+    };
+    const VkFenceCreateInfo fence = { .sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO };
+    const VkSamplerCreateInfo sampler = { .sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO };
+    VkResult result = vkCreateCommandPool(self->device, &pool, NULL, &self->commands);
+    if (result == VK_SUCCESS)
+        result =
+            vkAllocateCommandBuffers(self->device,
+                                     &(VkCommandBufferAllocateInfo){
+                                         .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+                                         .commandPool = self->commands,
+                                         .commandBufferCount = 2,
+                                     },
+                                     buffers);
+    if (result == VK_SUCCESS) {
+        self->frame_commands = buffers[0];
+        self->transfer_commands = buffers[1];
+        result = vkCreateFence(self->device, &fence, NULL, &self->fence);
+    }
+    if (result == VK_SUCCESS)
+        result = vkCreateSampler(self->device, &sampler, NULL, &self->sampler);
+    return result == VK_SUCCESS ? FM_OK : vulkan_fail(err, result, "vulkan: command buffers");
+}
+
+static void close_device(fm_device *device)
+{
+    vulkan *self = (vulkan *)device;
+    if (self == NULL)
+        return;
+    if (self->device != VK_NULL_HANDLE) {
+        vulkan_staging_destroy(self, self->staging);
+        vulkan_queries_destroy(self);
+        vulkan_descriptors_destroy(self);
+    }
+    if (self->device != VK_NULL_HANDLE && !self->has_hung) {
+        vkDestroySampler(self->device, self->sampler, NULL);
+        vkDestroyFence(self->device, self->fence, NULL);
+        vkDestroyCommandPool(self->device, self->commands, NULL);
+        vkDestroyDevice(self->device, NULL);
+    }
+    if (self->has_hung) /* the driver still works on it, and messages would come to *self */
+        return;
+    vulkan_instance_destroy(self->instance, &self->validation);
+    free(self);
+}
+
+static fm_status open_device(fm_device **device, const fm_device_desc *desc, fm_error *err)
+{
+    *device = NULL;
+    vulkan *self = calloc(1, sizeof *self);
+    if (self == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "vulkan: %zu bytes", sizeof *self);
+    self->base.ops = &vulkan_device;
+    self->no_timers = desc->no_timers;
+    fm_status status =
+        vulkan_instance_create(&self->instance, &self->validation, desc->validation, err);
+    if (status == FM_OK)
+        status = choose_device(self, desc->selector, err);
+    if (status == FM_OK)
+        status = vulkan_device_create(self, err);
+    if (status == FM_OK)
+        status = create_commands(self, err);
+    if (status == FM_OK)
+        status = vulkan_staging_create(&self->staging, self, err);
+    if (status == FM_OK)
+        status = vulkan_queries_create(self, err);
+    if (status != FM_OK)
+        goto out;
+    *device = &self->base;
+    self = NULL;
+out:
+    close_device(self != NULL ? &self->base : NULL);
+    return status;
+}
+
+static uint32_t validation_errors(const fm_device *device, const char **first)
+{
+    const vulkan *self = (const vulkan *)device;
+    *first = self->validation.first;
+    return self->validation.errors;
+}
+
+const fm_device_ops vulkan_device = {
+    .name = "vulkan",
+    .list = list_devices,
+    .open = open_device,
+    .close = close_device,
+    .validation_errors = validation_errors,
+    .buffer_create = vulkan_buffer_create,
+    .buffer_destroy = vulkan_buffer_destroy,
+    .buffer_address = vulkan_buffer_address,
+    .buffer_write = vulkan_buffer_write,
+    .buffer_read = vulkan_buffer_read,
+    .image_create = vulkan_image_create,
+    .image_destroy = vulkan_image_destroy,
+    .pipeline_create = vulkan_pipeline_create,
+    .pipeline_destroy = vulkan_pipeline_destroy,
+    .frame_begin = vulkan_frame_begin,
+    .frame_end = vulkan_frame_end,
+    .timer_begin = vulkan_timer_begin,
+    .timer_end = vulkan_timer_end,
+    .fill = vulkan_fill,
+    .update = vulkan_update,
+    .image_clear = vulkan_image_clear,
+    .dispatch = vulkan_dispatch,
+    .draw = vulkan_draw,
+};
