@@ -113,16 +113,15 @@ static uint32_t cells(const fm_stage *stage)
 static fm_status create_layers(fm_stage *stage, fm_error *err)
 {
     const fm_scene *scene = stage->scene;
-    if (scene->n == 0)
-        return FM_OK;
-    const uint64_t order_bytes = (uint64_t)scene->order_rows * scene->n * sizeof scene->order[0];
-    fm_status status = create_slot(stage, STAGE_LAYERS, scene->n * sizeof scene->layers[0],
-                                   scene->layers, false, err);
+    const uint32_t n = scene->n > 0 ? scene->n : 1; /* shaders of an empty scene name them too */
+    const uint64_t order_bytes = (uint64_t)scene->order_rows * n * sizeof scene->order[0];
+    fm_status status =
+        create_slot(stage, STAGE_LAYERS, n * sizeof scene->layers[0], scene->layers, false, err);
     if (status == FM_OK)
         status = create_slot(stage, STAGE_ORDER, order_bytes, scene->order, false, err);
     if (status != FM_OK || stage->feed != FM_FEED_RASTER)
         return status;
-    const uint32_t quads = is_cell_major(stage) ? scene->n : cells(stage);
+    const uint32_t quads = is_cell_major(stage) ? n : cells(stage);
     status = create_quad_indices(&stage->indices, stage->device, "indices", quads, err);
     if (status == FM_OK)
         status = create_quad_indices(&stage->flat_indices, stage->device, "flat indices", 1, err);

@@ -19,7 +19,7 @@ static void define_layers(fm_text *text, const fm_stage *stage, bool is_flat)
 {
     const fm_scene *scene = stage->scene;
     const uint64_t seed = scene->settings.seed;
-    shader_define(text, "FM_LAYERS", scene->n);
+    shader_define(text, "FM_LAYERS", scene->n > 0 ? scene->n : 1); /* a divisor */
     shader_define(text, "FM_TESSELLATION", is_flat ? 1 : scene->settings.tessellation);
     shader_define(text, "FM_CELL_MAJOR", is_cell_major(stage) && !is_flat);
     shader_define(text, "FM_ORDER_ROWS", is_flat ? 1 : scene->order_rows);

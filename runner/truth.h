@@ -10,13 +10,13 @@
 
 typedef struct fm_truth {
     uint32_t width_px, height_px;
-    uint32_t n;                 /* most fragments of any pixel */
-    uint64_t fragment_count;    /* F */
+    uint32_t n;              /* most fragments of any pixel */
+    uint64_t fragment_count; /* F */
     uint64_t nonempty_pixels;
     const uint64_t *offsets;      /* [pixels + 1] */
     const fm_fragment *fragments; /* [F], by pixel, nearest first */
-    const uint32_t *arrival;      /* [F]: where the i-th arriving fragment of a pixel stands among the
-                                     pixel's fragments; NULL for flat layers */
+    const uint32_t *arrival; /* [F]: where the i-th arriving fragment of a pixel stands among the
+                                pixel's fragments; NULL for flat layers */
     void *map;
     uint64_t map_bytes;
 } fm_truth;

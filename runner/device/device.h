@@ -31,9 +31,9 @@ enum {
 
 /* What this device is and can do. */
 typedef struct fm_device_caps {
-    char name[128];   /* "llvmpipe (LLVM 15.0.6, 256 bits)", "NVIDIA H100 80GB HBM3" */
-    char driver[128]; /* name and version */
-    char api[64];     /* "Vulkan 1.3.230", "OpenGL 4.5 (core)" */
+    char name[128];    /* "llvmpipe (LLVM 15.0.6, 256 bits)", "NVIDIA H100 80GB HBM3" */
+    char driver[128];  /* name and version */
+    char api[64];      /* "Vulkan 1.3.230", "OpenGL 4.5 (core)" */
     uint32_t features; /* FM_FEATURE_* */
     bool is_software;
     bool has_full_screen_attachments; /* colour, depth and stencil targets work */
@@ -45,18 +45,18 @@ typedef struct fm_device_caps {
     uint32_t colour_samples, depth_samples; /* bit s set: s samples are possible */
     uint32_t max_targets;
     uint64_t storage_range_bytes; /* largest bound storage buffer */
-    uint64_t buffer_max_bytes;    /* largest buffer by address; 0 without FM_FEATURE_BUFFER_ADDRESS */
-    uint64_t memory_bytes;        /* device memory; 0: not known */
-    uint32_t max_groups[3];       /* workgroups in a dispatch */
-    double timestamp_ns;          /* one tick; 0: no timestamps */
-    bool is_lavapipe_like;        /* Mesa software rasteriser: compile-time quirks of the prelude */
+    uint64_t buffer_max_bytes; /* largest buffer by address; 0 without FM_FEATURE_BUFFER_ADDRESS */
+    uint64_t memory_bytes;     /* device memory; 0: not known */
+    uint32_t max_groups[3];    /* workgroups in a dispatch */
+    double timestamp_ns;       /* one tick; 0: no timestamps */
+    bool is_lavapipe_like;     /* Mesa software rasteriser: compile-time quirks of the prelude */
 } fm_device_caps;
 
 /* How a device is opened. Zero is the default. */
 typedef struct fm_device_desc {
-    const char *selector;  /* after the colon of "vulkan:INDEX|NAME"; NULL: the first */
-    bool validation;       /* API validation with synchronization checks, if it is installed */
-    bool no_timers;        /* timers do nothing, so that barriers come from accesses alone */
+    const char *selector; /* after the colon of "vulkan:INDEX|NAME"; NULL: the first */
+    bool validation;      /* API validation with synchronization checks, if it is installed */
+    bool no_timers;       /* timers do nothing, so that barriers come from accesses alone */
 } fm_device_desc;
 
 /* One line of `fragmark list devices`. */
@@ -132,8 +132,8 @@ typedef struct fm_pipeline_desc {
     uint32_t iteration; /* for the values of state that depend on it */
     fm_target_desc targets[FM_MAX_TARGETS];
     uint32_t target_count;
-    fm_format depth_stencil; /* FM_FORMAT_NONE: none */
-    uint32_t samples;        /* 0 is 1 */
+    fm_format depth_stencil;      /* FM_FORMAT_NONE: none */
+    uint32_t samples;             /* 0 is 1 */
     uint32_t vertex_stride_bytes; /* 0: no vertex buffer, gl_VertexIndex only */
     fm_vertex_attribute attributes[4];
     uint32_t attribute_count;
@@ -173,8 +173,8 @@ typedef struct fm_draw {
     fm_load depth_stencil_load;
     float clear_depth;
     uint32_t clear_stencil;
-    fm_buffer *vertices; /* NULL: none */
-    fm_buffer *indices;  /* NULL: not indexed; 32-bit */
+    fm_buffer *vertices;   /* NULL: none */
+    fm_buffer *indices;    /* NULL: not indexed; 32-bit */
     uint32_t vertex_count; /* or index count */
     uint32_t instance_count;
     int query; /* counts the samples that pass into this slot; -1: none */
@@ -247,8 +247,8 @@ struct fm_device {
 /* All devices of this build, ending with NULL; "vulkan" stands first. */
 extern const fm_device_ops *const fm_device_table[];
 
-/* Opens "vulkan", "vulkan:1", "vulkan:llvmpipe", "osmesa", "dummy". FM_INVALID: no such device, with
- * the nearest name. */
+/* Opens "vulkan", "vulkan:1", "vulkan:llvmpipe", "osmesa", "dummy". FM_INVALID: no such device,
+ * with the nearest name. */
 fm_status device_open(fm_device **device, const char *name, const fm_device_desc *desc,
                       fm_error *err);
 void device_close(fm_device *device);

@@ -2,7 +2,8 @@
  *
  * A plugin is a shared object that exports one symbol,
  *
- *     const fm_method_desc fm_method = { .abi = FM_ABI, .size_bytes = sizeof(fm_method_desc), ... };
+ *     const fm_method_desc fm_method = { .abi = FM_ABI, .size_bytes = sizeof(fm_method_desc), ...
+ * };
  *
  * and lies in a folder of the method's name, beside the GLSL file of each pass:
  * kplus-array/kplus-array.so, kplus-array/store.glsl, ... The runner checks the whole descriptor
@@ -53,17 +54,17 @@ enum {
 
 /* What is true of a method. */
 enum {
-    FM_TRAIT_EXACT = 1u << 0,    /* hands over exactly the wanted fragments, in order, always */
-    FM_TRAIT_BOUNDED = 1u << 1,  /* memory does not depend on the scene's fragments */
-    FM_TRAIT_SORTED_INPUT = 1u << 2,    /* right only if fragments arrive in depth order */
+    FM_TRAIT_EXACT = 1u << 0,        /* hands over exactly the wanted fragments, in order, always */
+    FM_TRAIT_BOUNDED = 1u << 1,      /* memory does not depend on the scene's fragments */
+    FM_TRAIT_SORTED_INPUT = 1u << 2, /* right only if fragments arrive in depth order */
     FM_TRAIT_SORTS_IN_RESOLVE = 1u << 3,
     FM_TRAIT_LOSES_DEPTH_ONE = 1u << 4, /* a fragment at depth 1.0 is lost */
     FM_TRAIT_LOSES_TIES = 1u << 5,      /* of equal depths only one survives */
     FM_TRAIT_RACY = 1u << 6,            /* concurrent fragments of a pixel may damage each other */
     FM_TRAIT_APPROXIMATE = 1u << 7,     /* published as an approximation */
     FM_TRAIT_CONTROL = 1u << 8,         /* not a published method */
-    FM_TRAIT_FLOOR = 1u << 9,           /* the control whose store time is the floor of all others */
-    FM_TRAIT_EMITS_BACK = 1u << 10,     /* calls fm_emit with negative ranks */
+    FM_TRAIT_FLOOR = 1u << 9,       /* the control whose store time is the floor of all others */
+    FM_TRAIT_EMITS_BACK = 1u << 10, /* calls fm_emit with negative ranks */
 };
 #define FM_TRAITS_ALL ((1u << 11) - 1u)
 
@@ -87,7 +88,7 @@ enum {
     FM_FEED_FRAMES = 1u << 5,           /* draw-call sequences, simulated GPU only */
 };
 #define FM_FEEDS_FRAGMENTS 0xFu /* the four feeds that call store() */
-#define FM_FEEDS_ALL 0x3Fu
+#define FM_FEEDS_ALL       0x3Fu
 
 /* Which fragments the method is to hand over: what truth compares it with. */
 typedef enum fm_keeps {
@@ -199,13 +200,13 @@ typedef struct fm_resource {
     fm_sizing sizing;   /* buffers */
     const char *overflow;
 
-    fm_format format;        /* images */
-    uint32_t samples;        /* images; 0 is 1 */
-    uint32_t layers;         /* images; 0 is 1 */
-    uint32_t layers_per_k;   /* images; added: layers_per_k * k */
-    float clear_colour[4];   /* images; as bits for integer formats when the target loads by clear */
-    float clear_depth;       /* images */
-    uint32_t clear_stencil;  /* images */
+    fm_format format;       /* images */
+    uint32_t samples;       /* images; 0 is 1 */
+    uint32_t layers;        /* images; 0 is 1 */
+    uint32_t layers_per_k;  /* images; added: layers_per_k * k */
+    float clear_colour[4];  /* images; as bits for integer formats when the target loads by clear */
+    float clear_depth;      /* images */
+    uint32_t clear_stencil; /* images */
 
     bool ping_pong; /* two copies, swapped after each iteration of a loop: NAME is written,
                        NAME_previous (a name to use in `reads`) is what the last one wrote */
@@ -222,16 +223,16 @@ typedef struct fm_total {
 } fm_total;
 
 typedef enum fm_pass_kind {
-    FM_PASS_SCENE,       /* all fragments of the scene, through the feed */
-    FM_PASS_PIXELS,      /* once for each pixel: compute, or a full-screen triangle when the pass has
-                            targets or depth/stencil state, or when full_screen=fragment is forced */
-    FM_PASS_TILES,       /* compute, once for each tile of the viewport */
-    FM_PASS_TRIANGLES,   /* compute, once for each triangle of the scene */
-    FM_PASS_TOTAL,       /* compute, once for each unit of the total `count_total` */
-    FM_PASS_INDIRECT,    /* compute, workgroup counts from the first 12 bytes of `indirect` */
-    FM_PASS_CLEAR,       /* fills the resources in `writes` with clear_word, or images with their
-                            clear values */
-    FM_PASS_HOST,        /* reads totals back and calls the `after` hook */
+    FM_PASS_SCENE,     /* all fragments of the scene, through the feed */
+    FM_PASS_PIXELS,    /* once for each pixel: compute, or a full-screen triangle when the pass has
+                          targets or depth/stencil state, or when full_screen=fragment is forced */
+    FM_PASS_TILES,     /* compute, once for each tile of the viewport */
+    FM_PASS_TRIANGLES, /* compute, once for each triangle of the scene */
+    FM_PASS_TOTAL,     /* compute, once for each unit of the total `count_total` */
+    FM_PASS_INDIRECT,  /* compute, workgroup counts from the first 12 bytes of `indirect` */
+    FM_PASS_CLEAR,     /* fills the resources in `writes` with clear_word, or images with their
+                          clear values */
+    FM_PASS_HOST,      /* reads totals back and calls the `after` hook */
     FM_PASS_KIND_COUNT
 } fm_pass_kind;
 
@@ -262,7 +263,7 @@ typedef enum fm_stencil_op {
 
 typedef enum fm_blend {
     FM_BLEND_OFF,
-    FM_BLEND_ADD,     /* dst + src */
+    FM_BLEND_ADD, /* dst + src */
     FM_BLEND_MAX,
     FM_BLEND_MIN,
     FM_BLEND_OVER,    /* src + dst (1 - src.a), premultiplied */
@@ -303,15 +304,15 @@ typedef struct fm_state {
 typedef struct fm_pass {
     const char *name; /* clear, count, reference, store, resolve, or the method's own */
     fm_pass_kind kind;
-    const char *shader; /* file beside the plugin, or "OTHER-METHOD/file.glsl" */
+    const char *shader;                  /* file beside the plugin, or "OTHER-METHOD/file.glsl" */
     const char *reads[FM_MAX_ACCESSES];  /* resources; barriers follow from these two lists */
     const char *writes[FM_MAX_ACCESSES]; /* resources read and written, or only written */
     fm_target targets[FM_MAX_TARGETS];
     fm_state state;
-    bool exclusive;    /* store() runs alone at its pixel: spin lock or interlock */
-    bool emits;        /* calls fm_emit: the last such pass completes the image */
-    bool flat_tessellation; /* a scene pass whose fragments do not depend on the tessellation is
-                               drawn with t = 1 */
+    bool exclusive;          /* store() runs alone at its pixel: spin lock or interlock */
+    bool emits;              /* calls fm_emit: the last such pass completes the image */
+    bool flat_tessellation;  /* a scene pass whose fragments do not depend on the tessellation is
+                                drawn with t = 1 */
     const char *count_total; /* FM_PASS_TOTAL */
     const char *indirect;    /* FM_PASS_INDIRECT */
     uint32_t clear_word;     /* FM_PASS_CLEAR */
@@ -330,14 +331,14 @@ typedef struct fm_loop {
 /* What is known when a frame starts; what bytes() and after() are told. */
 typedef struct fm_workload {
     uint32_t width_px, height_px;
-    uint32_t k;           /* as the method uses it */
-    uint32_t n;           /* most fragments of any pixel */
+    uint32_t k; /* as the method uses it */
+    uint32_t n; /* most fragments of any pixel */
     uint64_t triangles;
     uint64_t fragments;      /* F */
     uint64_t fragments_kept; /* F_k */
     const uint64_t *totals;  /* in the order of the descriptor; 0 until read */
     const char *(*option)(const struct fm_workload *, const char *name); /* the chosen value */
-    const void *runner; /* the runner's own */
+    const void *runner;                                                  /* the runner's own */
 } fm_workload;
 
 typedef enum fm_next {
@@ -369,8 +370,8 @@ typedef struct fm_method_desc {
     fm_loop loops[FM_MAX_LOOPS];
 
     /* Hooks, for what data cannot say. */
-    uint64_t (*bytes)(const fm_workload *);                    /* NULL: what the extents say */
-    fm_next (*after)(const fm_workload *, const char *pass);   /* NULL: FM_NEXT */
+    uint64_t (*bytes)(const fm_workload *);                  /* NULL: what the extents say */
+    fm_next (*after)(const fm_workload *, const char *pass); /* NULL: FM_NEXT */
 } fm_method_desc;
 
 /* The one symbol of a plugin. Compile plugins with hidden visibility. */
