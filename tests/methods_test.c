@@ -1,0 +1,351 @@
+/* Every method on every feed and device: scenes worked out by hand, then scenes of all kinds
+ * against truth. */
+#include <math.h>
+#include <stdio.h>
+
+#include "scene_kit.h"
+
+/* What a picture may be off for rounding: float compositing of at most 64 layers against double. */
+static const double image_tolerance = 1e-6;
+
+enum { HAND_WIDTH = 5, HAND_HEIGHT = 4, HAND_PIXELS = HAND_WIDTH * HAND_HEIGHT, QUADS_MAX = 3 };
+
+typedef struct hand_quad {
+    fm_rect px;
+    float depth;
+    uint32_t colour;
+} hand_quad;
+
+/* Quads in order of arrival. */
+typedef struct hand_scene {
+    const char *name;
+    hand_quad quads[QUADS_MAX];
+    uint32_t quad_count;
+} hand_scene;
+
+/* Red in the low byte, premultiplied: half covering red, solid green, a quarter covering blue. */
+#define RED   0x80000040u
+#define GREEN 0xFF008000u
+#define BLUE  0x40400000u
+
+static const hand_scene hand_scenes[] = {
+    { "one layer", { { { 0, 0, 5, 4 }, 0.5f, RED } }, 1 },
+    { "two layers", { { { 0, 0, 5, 4 }, 0.5f, GREEN }, { { 1, 1, 4, 3 }, 0.25f, RED } }, 2 },
+    { "three layers",
+      { { { 0, 0, 5, 4 }, 0.5f, GREEN },
+        { { 2, 0, 5, 4 }, 0.75f, BLUE },
+        { { 1, 1, 4, 3 }, 0.0f, RED } },
+      3 },
+};
+static const hand_scene depth_one = {
+    "depth 1", { { { 0, 0, 5, 4 }, 1.0f, RED }, { { 1, 1, 4, 3 }, 0.5f, GREEN } }, 2
+};
+
+static fm_scene *make_by_hand(const hand_scene *hand)
+{
+    fm_scene *scene = kit_quads_create(HAND_WIDTH, HAND_HEIGHT, hand->quad_count);
+    for (uint32_t i = 0; i < hand->quad_count; i++)
+        kit_quad(scene, i, hand->quads[i].px, hand->quads[i].depth, hand->quads[i].colour);
+    return scene;
+}
+
+/* The quads over a pixel, nearest first: what one would write down on paper. */
+static uint32_t on_paper(const hand_quad *over[QUADS_MAX], const hand_scene *hand, uint32_t pixel)
+{
+    const uint32_t x = pixel % HAND_WIDTH, y = pixel / HAND_WIDTH;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < hand->quad_count; i++) {
+        const hand_quad *quad = &hand->quads[i];
+        if (x < quad->px.x0 || x >= quad->px.x1 || y < quad->px.y0 || y >= quad->px.y1)
+            continue;
+        uint32_t at = count++;
+        for (; at > 0 && over[at - 1]->depth > quad->depth; at--)
+            over[at] = over[at - 1];
+        over[at] = quad;
+    }
+    return count;
+}
+
+/* The nearest `most` of them, seen from the back: each covers what is behind it. */
+static void paint(double rgba[4], const hand_quad *const over[QUADS_MAX], uint32_t count,
+                  uint32_t most)
+{
+    memset(rgba, 0, 4 * sizeof rgba[0]);
+    for (uint32_t i = count < most ? count : most; i-- > 0;) {
+        const uint32_t colour = over[i]->colour;
+        const double shows = 1.0 - (double)(colour >> 24) / 255.0;
+        for (int channel = 0; channel < 4; channel++)
+            rgba[channel] =
+                (double)(colour >> (8 * channel) & 0xFFu) / 255.0 + shows * rgba[channel];
+    }
+}
+
+static void expect_truth(const fm_truth *truth, const hand_scene *hand)
+{
+    const hand_quad *over[QUADS_MAX];
+    for (uint32_t pixel = 0; pixel < HAND_PIXELS; pixel++) {
+        const uint32_t count = on_paper(over, hand, pixel);
+        const fm_fragment *fragments = &truth->fragments[truth->offsets[pixel]];
+        assert_int_equal(truth->offsets[pixel + 1] - truth->offsets[pixel], count);
+        for (uint32_t i = 0; i < count; i++) {
+            assert_memory_equal(&fragments[i].depth, &over[i]->depth, sizeof(float));
+            assert_int_equal(fragments[i].colour, over[i]->colour);
+        }
+    }
+}
+
+static void expect_image(const fm_image *image, const hand_scene *hand, uint32_t most,
+                         const char *where)
+{
+    const hand_quad *over[QUADS_MAX];
+    double rgba[4];
+    for (uint32_t pixel = 0; pixel < HAND_PIXELS; pixel++) {
+        paint(rgba, over, on_paper(over, hand, pixel), most);
+        for (uint32_t channel = 0; channel < 4; channel++) {
+            const double is = (double)image->rgba[4 * pixel + channel];
+            if (!(fabs(is - rgba[channel]) <= image_tolerance))
+                fail_msg("%s: %s: pixel %u channel %u is %.9g, not %.9g", where, hand->name, pixel,
+                         channel, is, rgba[channel]);
+        }
+    }
+}
+
+static void expect_exact(const fm_measurement *m, bool any_ties, const char *where,
+                         const char *scene)
+{
+    const fm_check *check = &m->check;
+    const bool holds = check->missing + check->extra + check->misordered + m->lost == 0;
+    if (!holds)
+        fail_msg("%s: %s: missing %u, extra %u, misordered %u, lost %u in %u pixels", where, scene,
+                 (unsigned)check->missing, (unsigned)check->extra, (unsigned)check->misordered,
+                 (unsigned)m->lost, (unsigned)check->wrong_pixels);
+    /* Of equal depths either may come first, and another frame may decide otherwise: the timed
+     * image and the captured fragments then need not agree. */
+    if (!any_ties && !(m->self_max_abs <= image_tolerance))
+        fail_msg("%s: %s: the image is %.3g from its fragments", where, scene, m->self_max_abs);
+}
+
+/* Runs body for each method that hands over exact fragments, on each of its feeds. */
+typedef void each_body(kit_scene *scene, const fm_method_desc *method, const kit_way *way,
+                       const void *more);
+
+static void on_each_exact(kit_scene *scene, const char *texts, each_body *body, const void *more)
+{
+    for (size_t i = 0; i < scene->kit->plugins.count; i++) {
+        const fm_method_desc *method = kit_method(scene->kit, i);
+        for (uint32_t feed = FM_FEED_RASTER; feed <= FM_FEED_COMPUTE_ADJACENT; feed <<= 1)
+            if ((kit_feeds(method) & feed) != 0 && (method->traits & FM_TRAIT_EXACT) != 0)
+                body(scene, method, &(kit_way){ method->id, feed, texts }, more);
+    }
+}
+
+static void check_by_hand(kit_scene *scene, const fm_method_desc *method, const kit_way *way,
+                          const void *more)
+{
+    const hand_scene *hand = more;
+    fm_measurement m;
+    char where[256];
+    kit_tell(where, way);
+    if (kit_measure(&m, scene, way)) {
+        expect_exact(&m, false, where, hand->name);
+        expect_image(m.image, hand, measure_wanted(method, strcmp(way->texts, "k=1") == 0 ? 1 : 2),
+                     where);
+    }
+    measurement_free(&m);
+}
+
+static void methods_agree_with_paper_on_few_layers(void **state)
+{
+    scene_kit kit;
+    kit_open(&kit, device_of(state));
+    for (size_t i = 0; i < sizeof hand_scenes / sizeof hand_scenes[0]; i++) {
+        kit_scene scene;
+        kit_scene_take(&scene, &kit, make_by_hand(&hand_scenes[i]));
+        expect_truth(scene.truth, &hand_scenes[i]);
+        on_each_exact(&scene, i == 0 ? "k=1" : "k=2", check_by_hand, &hand_scenes[i]);
+        kit_scene_close(&scene);
+    }
+    kit_close(&kit);
+}
+
+/* Two layers as plain numbers: red 64/255 with alpha 128/255 before solid green 128/255. */
+static void two_layers_mix_as_computed_by_head(void **state)
+{
+    static const float expected[4] = { 64.0f / 255, 128.0f / 255 * 127 / 255, 0.0f, 1.0f };
+    scene_kit kit;
+    kit_scene scene;
+    fm_measurement m;
+    kit_open(&kit, device_of(state));
+    kit_scene_take(&scene, &kit, make_by_hand(&hand_scenes[1]));
+    assert_true(kit_measure(&m, &scene, &(kit_way){ "kplus-array", FM_FEED_COMPUTE_PIXEL, "k=2" }));
+    for (size_t channel = 0; channel < 4; channel++)
+        assert_float_equal(m.image->rgba[4 * (HAND_WIDTH + 1) + channel], expected[channel], 1e-6f);
+    measurement_free(&m);
+    kit_scene_close(&scene);
+    kit_close(&kit);
+}
+
+/* All but the six pixels behind the nearer quad show only the layer at 1. */
+static void check_depth_one(kit_scene *scene, const fm_method_desc *method, const kit_way *way,
+                            const void *more)
+{
+    fm_measurement m;
+    char where[256];
+    (void)more;
+    kit_tell(where, way);
+    if (kit_measure(&m, scene, way)) {
+        if ((method->traits & FM_TRAIT_LOSES_DEPTH_ONE) != 0) {
+            assert_int_equal(m.check.missing, HAND_PIXELS - 6);
+            m.check.missing = 0;
+        }
+        expect_exact(&m, false, where, depth_one.name);
+    }
+    measurement_free(&m);
+}
+
+static void depth_one_is_lost_only_where_declared(void **state)
+{
+    scene_kit kit;
+    kit_scene scene;
+    kit_open(&kit, device_of(state));
+    kit_scene_take(&scene, &kit, make_by_hand(&depth_one));
+    expect_truth(scene.truth, &depth_one);
+    on_each_exact(&scene, "k=2", check_depth_one, NULL);
+    kit_scene_close(&scene);
+    kit_close(&kit);
+}
+
+/* ---- against truth ---- */
+
+static const struct random_scene {
+    const char *texts, *k;
+} random_scenes[] = {
+    { "width_px=37 height_px=23 n=0", "k=3" },
+    { "width_px=61 height_px=1 pixel_density=1 n=1 tessellation=2", "k=1" },
+    { "width_px=37 height_px=23 pixel_density=0.6 n=4 tessellation=3 order=random-cell "
+      "depths=clustered alphas=random",
+      "k=5" },
+    { "width_px=16 height_px=16 pixel_density=1 n=8 tessellation=4 order=descending depths=ulp",
+      "k=8" },
+    { "width_px=61 height_px=1 pixel_density=0.7 n=18 tessellation=5 order=cell-major "
+      "depths=sloped seed=5",
+      "k=17" },
+    { "width_px=37 height_px=23 pixel_density=0.9 n=40 tessellation=7 order=random-cell "
+      "depths=coplanar fragment_probability=0.5",
+      "k=33" },
+    { "width_px=1 height_px=61 pixel_density=1 n=40 tessellation=1 depths=sloped "
+      "fragment_probability=0.5 seed=7",
+      "k=2" },
+    { "width_px=13 height_px=29 pixel_density=0.4 n=64 tessellation=6 order=ascending", "k=64" },
+    { "width_px=19 height_px=11 pixel_density=1 n=40 order=cell-major tessellation=3 "
+      "colours=grey",
+      "k=64" },
+    { "width_px=33 height_px=9 pixel_density=0.3 n=9 tessellation=2 depths=ulp "
+      "fragment_probability=0.5",
+      "k=8" },
+    { "width_px=37 height_px=23 pixel_density=0.05 n=2 tessellation=1 depths=coplanar", "k=3" },
+    { "width_px=29 height_px=31 pixel_density=0.5 n=40 tessellation=7 order=cell-major "
+      "depths=clustered fragment_probability=0.5 seed=12",
+      "k=1" },
+};
+
+/* Each scene meets each method on one feed in turn: over all scenes each pair a few times, in a
+ * quarter of the time. */
+static bool is_its_turn(size_t scene, size_t method, uint32_t feed)
+{
+    return feed == (uint32_t)FM_FEED_RASTER << (scene + method) % 4;
+}
+
+/* The method's image, to be destroyed; NULL: not supported. */
+static fm_image *measured_image(kit_scene *scene, const kit_way *way, bool any_ties,
+                                const char *texts)
+{
+    fm_measurement m;
+    char where[256];
+    kit_tell(where, way);
+    if (kit_measure(&m, scene, way))
+        expect_exact(&m, any_ties, where, texts);
+    fm_image *image = m.image;
+    m.image = NULL;
+    measurement_free(&m);
+    return image;
+}
+
+static void expect_same_image(const fm_image *image, const fm_image *as, const kit_way *way,
+                              const char *what)
+{
+    char where[256];
+    kit_tell(where, way);
+    if (image != NULL && as != NULL && !(kit_apart(image, as) <= image_tolerance))
+        fail_msg("%s: %.3g from the image of %s", where, kit_apart(image, as), what);
+}
+
+static void check_random(kit_scene *scene, size_t number)
+{
+    const char *texts = random_scenes[number].texts, *k = random_scenes[number].k;
+    const uint32_t kept = (uint32_t)strtoul(k + 2, NULL, 10);
+    const bool any_ties = kit_has_ties(scene->truth);
+    fm_image *all =
+        measured_image(scene, &(kit_way){ "ab-array", FM_FEED_RASTER, k }, any_ties, texts);
+    fm_image *nearest =
+        measured_image(scene, &(kit_way){ "z-buffer", FM_FEED_RASTER, k }, any_ties, texts);
+    for (size_t i = 0; i < scene->kit->plugins.count; i++) {
+        const fm_method_desc *method = kit_method(scene->kit, i);
+        for (uint32_t feed = FM_FEED_RASTER; feed <= FM_FEED_COMPUTE_ADJACENT; feed <<= 1) {
+            const kit_way way = { method->id, feed, k };
+            if ((kit_feeds(method) & feed) == 0 || !is_its_turn(number, i, feed) ||
+                (method->traits & FM_TRAIT_EXACT) == 0)
+                continue;
+            fm_image *image = measured_image(scene, &way, any_ties, texts);
+            const bool keeps_k = method->keeps == FM_KEEPS_K_NEAREST;
+            if (keeps_k && kept >= scene->truth->n && !any_ties)
+                expect_same_image(image, all, &way, "ab-array");
+            if (keeps_k && kept == 1 && !any_ties)
+                expect_same_image(image, nearest, &way, "z-buffer");
+            image_destroy(image);
+        }
+    }
+    image_destroy(all);
+    image_destroy(nearest);
+}
+
+static void methods_agree_with_truth_on_scenes_of_all_kinds(void **state)
+{
+    scene_kit kit;
+    kit_open(&kit, device_of(state));
+    for (size_t i = 0; i < sizeof random_scenes / sizeof random_scenes[0]; i++) {
+        kit_scene scene;
+        kit_scene_open(&scene, &kit, random_scenes[i].texts);
+        check_random(&scene, i);
+        kit_scene_close(&scene);
+    }
+    kit_close(&kit);
+}
+
+/* A method that keeps nothing must hand over nothing. */
+static void null_hands_over_nothing(void **state)
+{
+    scene_kit kit;
+    kit_scene scene;
+    fm_measurement m;
+    kit_open(&kit, device_of(state));
+    kit_scene_open(&scene, &kit, "width_px=16 height_px=16 n=3");
+    assert_true(kit_measure(&m, &scene, &(kit_way){ "null", FM_FEED_RASTER, "" }));
+    assert_int_equal(m.check.captured, 0);
+    assert_int_equal(m.lost, 0);
+    measurement_free(&m);
+    kit_scene_close(&scene);
+    kit_close(&kit);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        ON_EACH_DEVICE(methods_agree_with_paper_on_few_layers),
+        ON_EACH_DEVICE(two_layers_mix_as_computed_by_head),
+        ON_EACH_DEVICE(depth_one_is_lost_only_where_declared),
+        ON_EACH_DEVICE(methods_agree_with_truth_on_scenes_of_all_kinds),
+        ON_EACH_DEVICE(null_hands_over_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,226 @@
+#include "scene_kit.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <unistd.h>
+
+#include "plan.h"
+
+void kit_open(scene_kit *kit, fm_device *device)
+{
+    fm_error err = { .message = "" };
+    kit->device = device;
+    if (plugin_list_open(&kit->plugins, NULL, &err) != FM_OK)
+        fail_msg("%s", err.message);
+    if (plugin_list_floor(&kit->floor, &kit->plugins, &err) != FM_OK)
+        fail_msg("%s", err.message);
+}
+
+void kit_close(scene_kit *kit)
+{
+    plugin_list_close(&kit->plugins);
+}
+
+const fm_method_desc *kit_method(const scene_kit *kit, size_t index)
+{
+    const fm_plugin_entry *entry = &kit->plugins.entries[index];
+    if (entry->plugin == NULL)
+        fail_msg("%s: %s", entry->id, entry->error.message);
+    return entry->plugin->method;
+}
+
+uint32_t kit_feeds(const fm_method_desc *method)
+{
+    return (method->feeds != 0 ? method->feeds : FM_FEEDS_FRAGMENTS) & FM_FEEDS_FRAGMENTS;
+}
+
+/* Sets keys; what is no key becomes a choice of the method's, if there is room for choices. */
+static void apply(fm_settings *settings, fm_choice *choices, size_t *count, const char *texts)
+{
+    char copy[512];
+    char *rest = NULL;
+    fm_error err = { .message = "" };
+    snprintf(copy, sizeof copy, "%s", texts);
+    for (char *word = strtok_r(copy, " ", &rest); word != NULL; word = strtok_r(NULL, " ", &rest)) {
+        char *value = strchr(word, '=');
+        if (value == NULL)
+            fail_msg("'%s' is not KEY=VALUE", word);
+        *value++ = '\0';
+        const fm_key *key = key_find(word);
+        if (key == NULL && choices != NULL && *count < FM_MAX_OPTIONS) {
+            snprintf(choices[*count].name, sizeof choices->name, "%s", word);
+            snprintf(choices[*count].value, sizeof choices->value, "%s", value);
+            ++*count;
+        } else if (key == NULL || settings_set(settings, key, value, &err) != FM_OK) {
+            fail_msg("%s: %s", word, key == NULL ? "no such key" : err.message);
+        }
+    }
+}
+
+static void capture(kit_scene *scene)
+{
+    fm_error err = { .message = "" };
+    snprintf(scene->truth_path, sizeof scene->truth_path, "/tmp/fm-truth-XXXXXX");
+    const int fd = mkstemp(scene->truth_path);
+    assert_true(fd >= 0);
+    close(fd);
+    if (truth_capture(scene->truth_path, scene->kit->device, scene->scene,
+                      scene->kit->plugins.common_folder, &err) != FM_OK)
+        fail_msg("%s", err.message);
+    if (truth_open(&scene->truth, scene->truth_path, &err) != FM_OK)
+        fail_msg("%s", err.message);
+}
+
+void kit_scene_take(kit_scene *scene, scene_kit *kit, fm_scene *made)
+{
+    *scene = (kit_scene){ .kit = kit, .scene = made };
+    capture(scene);
+}
+
+void kit_scene_open(kit_scene *scene, scene_kit *kit, const char *texts)
+{
+    fm_settings settings;
+    fm_error err = { .message = "" };
+    fm_scene *made = NULL;
+    settings_default(&settings);
+    apply(&settings, NULL, NULL, texts);
+    if (settings_finish(&settings, &err) != FM_OK || scene_create(&made, &settings, &err) != FM_OK)
+        fail_msg("%s: %s", texts, err.message);
+    kit_scene_take(scene, kit, made);
+}
+
+void kit_scene_close(kit_scene *scene)
+{
+    truth_close(scene->truth);
+    scene_destroy(scene->scene);
+    unlink(scene->truth_path);
+}
+
+bool kit_has_ties(const fm_truth *truth)
+{
+    const uint64_t pixels = (uint64_t)truth->width_px * truth->height_px;
+    for (uint64_t pixel = 0; pixel < pixels; pixel++)
+        for (uint64_t i = truth->offsets[pixel] + 1; i < truth->offsets[pixel + 1]; i++)
+            if (!(truth->fragments[i - 1].depth < truth->fragments[i].depth))
+                return true;
+    return false;
+}
+
+void kit_tell(char text[256], const kit_way *way)
+{
+    snprintf(text, 256, "%s, %s, %s", way->method, feed_name(way->feed), way->texts);
+}
+
+static void fill_desc(fm_instance_desc *desc, const kit_scene *scene, const fm_plugin *plugin,
+                      const fm_settings *settings)
+{
+    const uint32_t wanted = measure_wanted(plugin->method, settings->k);
+    *desc = (fm_instance_desc){
+        .method = plugin->method,
+        .folders = { plugin->folder, scene->kit->plugins.common_folder },
+        .settings = settings,
+        .fragments = scene->truth->fragment_count,
+        .fragments_kept = truth_kept(scene->truth, wanted == UINT32_MAX ? 0 : wanted),
+    };
+}
+
+fm_status kit_try(fm_measurement *measurement, kit_scene *scene, const kit_way *way, fm_error *err)
+{
+    const fm_plugin_entry *entry = plugin_list_find(&scene->kit->plugins, way->method);
+    fm_settings settings = scene->scene->settings;
+    fm_choice choices[FM_MAX_OPTIONS];
+    fm_instance_desc method, floor;
+    fm_stage *stage = NULL;
+    assert_non_null(entry);
+    assert_non_null(entry->plugin);
+    *measurement = (fm_measurement){ .samples = NULL };
+    settings.buffers = FM_BUFFERS_AUTO;
+    size_t choice_count = 0;
+    apply(&settings, choices, &choice_count, way->texts);
+    if (entry->plugin->method->keeps != FM_KEEPS_K_NEAREST)
+        settings.k = 0;
+    scene->scene->settings.buffers = settings.buffers;
+    fill_desc(&method, scene, entry->plugin, &settings);
+    fill_desc(&floor, scene, scene->kit->floor, &settings);
+    method.choices = choices;
+    method.choice_count = choice_count;
+    fm_status status =
+        stage_create(&stage, scene->kit->device, scene->scene, scene->truth, way->feed, err);
+    method.stage = floor.stage = stage;
+    const fm_measure_desc desc = { .method = &method,
+                                   .floor = &floor,
+                                   .truth = scene->truth,
+                                   .frames = 1,
+                                   .warmup = 1,
+                                   .check = true };
+    if (status == FM_OK)
+        status = measure_case(measurement, &desc, err);
+    stage_destroy(stage);
+    return status;
+}
+
+bool kit_measure(fm_measurement *measurement, kit_scene *scene, const kit_way *way)
+{
+    fm_error err = { .message = "" };
+    char where[256];
+    const fm_status status = kit_try(measurement, scene, way, &err);
+    kit_tell(where, way);
+    if (status == FM_UNSUPPORTED)
+        print_message("skipped: %s: %s\n", where, err.message);
+    else if (status != FM_OK)
+        fail_msg("%s: %s", where, err.message);
+    return status == FM_OK;
+}
+
+fm_scene *kit_quads_create(uint32_t width_px, uint32_t height_px, uint32_t quads)
+{
+    static const uint32_t corner[6] = { 0, 1, 2, 2, 1, 3 };
+    fm_scene *scene = calloc(1, sizeof *scene);
+    assert_non_null(scene);
+    settings_default(&scene->settings);
+    scene->settings.generator = FM_GENERATOR_MESH;
+    scene->settings.n = 0;
+    scene->width_px = scene->settings.width_px = width_px;
+    scene->height_px = scene->settings.height_px = height_px;
+    scene->triangles = 2ull * quads;
+    scene->vertex_count = 4 * quads;
+    scene->index_count = 6 * quads;
+    scene->instances = 1;
+    scene->vertices = calloc(scene->vertex_count, sizeof scene->vertices[0]);
+    scene->indices = calloc(scene->index_count, sizeof scene->indices[0]);
+    scene->clip_from_object = calloc(16, sizeof scene->clip_from_object[0]);
+    assert_true(scene->vertices != NULL && scene->indices != NULL &&
+                scene->clip_from_object != NULL);
+    for (uint32_t i = 0; i < scene->index_count; i++)
+        scene->indices[i] = 4 * (i / 6) + corner[i % 6];
+    for (int i = 0; i < 4; i++)
+        scene->clip_from_object[5 * i] = 1.0f;
+    return scene;
+}
+
+static float ndc(uint32_t px, uint32_t size_px)
+{
+    return (float)px * 2.0f / (float)size_px - 1.0f;
+}
+
+void kit_quad(fm_scene *scene, uint32_t i, fm_rect px, float depth, uint32_t colour)
+{
+    for (uint32_t corner = 0; corner < 4; corner++)
+        scene->vertices[4 * i + corner] = (fm_vertex){
+            .position = { ndc((corner & 1u) != 0 ? px.x1 : px.x0, scene->width_px),
+                          ndc((corner & 2u) != 0 ? px.y1 : px.y0, scene->height_px), depth },
+            .colour = colour,
+        };
+}
+
+double kit_apart(const fm_image *a, const fm_image *b)
+{
+    double most = 0;
+    assert_int_equal(a->width_px, b->width_px);
+    assert_int_equal(a->height_px, b->height_px);
+    for (size_t i = 0; i < 4ull * a->width_px * a->height_px; i++) {
+        const double apart = fabs((double)a->rgba[i] - (double)b->rgba[i]);
+        most = !(apart <= most) ? apart : most;
+    }
+    return most;
+}
