@@ -58,11 +58,12 @@ static fm_status check_device(fm_instance *instance, fm_error *err)
         const bool is_depth =
             resource->format == FM_FORMAT_D32F || resource->format == FM_FORMAT_D32F_S8;
         const uint32_t possible = is_depth ? caps->depth_samples : caps->colour_samples;
-        if (resource->samples > 1 && (possible & resource->samples) == 0)
+        const uint32_t samples = resource_samples(instance, resource);
+        if (samples > 1 && (possible & samples) != samples)
             status = fm_fail(err, FM_UNSUPPORTED,
                              "%s: resource '%s' has %u samples, which %s "
                              "does not have",
-                             method->id, resource->name, resource->samples, caps->name);
+                             method->id, resource->name, samples, caps->name);
     }
     return status;
 }

@@ -331,7 +331,7 @@ static uint32_t image_samples(const fm_instance *instance, const char *name, fm_
     const fm_resource *resource =
         &instance->method->resources[resource_index(instance->method, name, &is_previous)];
     *format = resource->format;
-    return resource->samples;
+    return resource_samples(instance, resource);
 }
 
 static void describe_targets(fm_pipeline_desc *desc, const fm_instance *instance,

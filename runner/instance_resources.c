@@ -88,11 +88,17 @@ static uint32_t image_layers(const fm_instance *instance, const fm_resource *res
     return layers > 0 ? layers : 1;
 }
 
+uint32_t resource_samples(const fm_instance *instance, const fm_resource *resource)
+{
+    const uint32_t samples = resource->samples + resource->samples_per_k * instance->workload.k;
+    return samples > 0 ? samples : 1;
+}
+
 static fm_status create_image(fm_instance *instance, fm_slot *slot, const fm_resource *resource,
                               fm_error *err)
 {
     slot->format = resource->format;
-    slot->samples = resource->samples > 0 ? resource->samples : 1;
+    slot->samples = resource_samples(instance, resource);
     slot->layers = image_layers(instance, resource);
     const fm_image_desc desc = { .name = resource->name,
                                  .format = slot->format,
@@ -226,7 +232,7 @@ static uint64_t image_bytes(const fm_instance *instance, const fm_resource *reso
 {
     const uint64_t pixels = (uint64_t)instance->workload.width_px * instance->workload.height_px;
     return pixels * fm_format_bytes(resource->format) * image_layers(instance, resource) *
-           (resource->samples > 0 ? resource->samples : 1);
+           resource_samples(instance, resource);
 }
 
 uint64_t instance_bytes_predicted(const fm_instance *instance)

@@ -92,6 +92,7 @@ static fm_status take_samples(fm_measurement *measurement, fm_instance *method, 
         is_long = is_long || sample->wall_ns > MEASURE_LONG_FRAME_NS;
         measurement->sample_count = i + 1;
     }
+    measurement->is_long = is_long;
     return status;
 }
 

@@ -8,6 +8,9 @@
 #include "instance.h"
 #include "truth.h"
 
+/* A frame over this is sampled twice only. */
+#define MEASURE_LONG_FRAME_NS 2000000000ull
+
 /* A timed frame of the method, and the frame of the floor that ran beside it. */
 typedef struct fm_sample {
     uint64_t pass_ns[FM_MAX_PASSES];
@@ -19,6 +22,7 @@ typedef struct fm_sample {
 typedef struct fm_measurement {
     fm_sample *samples; /* [sample_count]; owned */
     uint32_t sample_count;
+    bool is_long; /* a frame took over MEASURE_LONG_FRAME_NS: two samples only */
     uint64_t bytes_allocated, bytes_predicted, bytes_used;
     uint64_t lost;
     fm_image *image; /* of the last timed frame; owned */
@@ -41,9 +45,6 @@ typedef struct fm_measure_desc {
     uint32_t frames, warmup;
     bool check;
 } fm_measure_desc;
-
-/* A frame over this is sampled twice only. */
-#define MEASURE_LONG_FRAME_NS 2000000000ull
 
 /* Fragments of a pixel that truth wants of a method: UINT32_MAX means all. */
 uint32_t measure_wanted(const fm_method_desc *method, uint32_t k);

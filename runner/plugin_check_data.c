@@ -164,7 +164,8 @@ static fm_status check_buffer(const fm_check *check, const fm_resource *r, fm_er
     fm_status status = check_range(r->element, FM_ELEMENT_COUNT, "element", err);
     if (status != FM_OK)
         return status;
-    if (r->format != FM_FORMAT_NONE || r->samples != 0 || r->layers != 0 || r->layers_per_k != 0)
+    if (r->format != FM_FORMAT_NONE || r->samples != 0 || r->samples_per_k != 0 || r->layers != 0 ||
+        r->layers_per_k != 0)
         return fm_fail(err, FM_INVALID, "a buffer has no format, samples or layers");
     if (r->element == FM_ELEMENT_UINT64 && !(check->method->features & FM_FEATURE_INT64_ATOMICS))
         return fm_fail(err, FM_INVALID, "element: 64-bit needs FM_FEATURE_INT64_ATOMICS");

@@ -228,6 +228,17 @@ static fm_status count_invocations(fm_stage *stage, const fm_truth *truth, fm_er
     return FM_OK;
 }
 
+/* The image starts transparent black: a method that emits nothing shows nothing. */
+static fm_status create_black(fm_stage *stage, uint64_t pixels, fm_error *err)
+{
+    float(*black)[4] = calloc(pixels, sizeof *black);
+    if (black == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "an image of %" PRIu64 " pixels", pixels);
+    fm_status status = create_slot(stage, STAGE_OUTPUT, pixels * sizeof *black, black, false, err);
+    free(black);
+    return status;
+}
+
 static fm_status create_shared(fm_stage *stage, fm_error *err)
 {
     const uint64_t pixels = (uint64_t)stage->scene->width_px * stage->scene->height_px;
@@ -237,7 +248,7 @@ static fm_status create_shared(fm_stage *stage, fm_error *err)
     fm_status status =
         stage->device->ops->buffer_create(&stage->params, stage->device, &params, err);
     if (status == FM_OK)
-        status = create_slot(stage, STAGE_OUTPUT, pixels * 16, NULL, false, err);
+        status = create_black(stage, pixels, err);
     if (status == FM_OK)
         status = create_slot(stage, STAGE_COUNTERS, STAGE_COUNTER_COUNT * 4, NULL, true, err);
     return status;

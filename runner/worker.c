@@ -369,6 +369,9 @@ static fm_status measure_job(launch_job *job)
         status = write_images(job);
     if (status != FM_OK)
         return status;
+    if (job->measurement.is_long)
+        fm_fail(&job->error, FM_OK, "frames over 2 s: %u samples a launch, the interval is wide",
+                job->measurement.sample_count);
     add_metrics(job);
     add_modelled(job);
     return FM_OK;

@@ -103,7 +103,8 @@ typedef struct vulkan {
     VkCommandPool commands;
     VkCommandBuffer frame_commands, transfer_commands;
     VkFence fence;
-    VkSampler sampler; /* nearest: images are read with texelFetch */
+    VkSampler sampler;                 /* nearest: images are read with texelFetch */
+    struct shaderc_compiler *compiler; /* kept: starting one parses all that is built in, 20 ms */
     fm_buffer *staging;
     vulkan_descriptors descriptors;
     vulkan_query_pool timestamps, occlusions;
@@ -163,6 +164,8 @@ bool vulkan_format_has_stencil(fm_format format);
 uint32_t vulkan_find_samples(VkPhysicalDevice physical, fm_format first, fm_format last);
 
 /* shader.c: one stage to SPIR-V and a module. name is the pipeline's. */
+fm_status vulkan_compiler_create(vulkan *self, fm_error *err);
+void vulkan_compiler_destroy(vulkan *self); /* also if none was created */
 fm_status vulkan_shader_create(VkShaderModule *module, const vulkan *self, const char *name,
                                VkShaderStageFlagBits stage, const char *source, fm_error *err);
 

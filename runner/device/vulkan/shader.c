@@ -77,6 +77,19 @@ static fm_status create_module(VkShaderModule *module, const vulkan *self, const
     return vulkan_fail(err, result, "%s: shader module", name);
 }
 
+fm_status vulkan_compiler_create(vulkan *self, fm_error *err)
+{
+    self->compiler = shaderc_compiler_initialize();
+    return self->compiler != NULL
+               ? FM_OK
+               : fm_fail(err, FM_NO_MEMORY, "vulkan: the shader compiler does not start");
+}
+
+void vulkan_compiler_destroy(vulkan *self)
+{
+    shaderc_compiler_release(self->compiler);
+}
+
 /* SPIR-V is not optimised: drivers do that themselves, and compiling takes half the time. */
 fm_status vulkan_shader_create(VkShaderModule *module, const vulkan *self, const char *name,
                                VkShaderStageFlagBits stage, const char *source, fm_error *err)
@@ -84,18 +97,17 @@ fm_status vulkan_shader_create(VkShaderModule *module, const vulkan *self, const
     fm_status status = FM_OK;
     const stage_traits traits = traits_of(stage);
     shaderc_compilation_result_t result = NULL;
-    shaderc_compiler_t compiler = shaderc_compiler_initialize();
     shaderc_compile_options_t options = shaderc_compile_options_initialize();
     *module = VK_NULL_HANDLE;
-    if (compiler == NULL || options == NULL) {
-        status = fm_fail(err, FM_NO_MEMORY, "%s: the shader compiler does not start", name);
+    if (options == NULL) {
+        status = fm_fail(err, FM_NO_MEMORY, "%s: no memory to compile shaders", name);
         goto out;
     }
     shaderc_compile_options_set_target_env(options, shaderc_target_env_vulkan,
                                            shaderc_env_version_vulkan_1_3);
     shaderc_compile_options_set_optimization_level(options, shaderc_optimization_level_zero);
-    result = shaderc_compile_into_spv(compiler, source, strlen(source), traits.kind, SOURCE_NAME,
-                                      "main", options);
+    result = shaderc_compile_into_spv(self->compiler, source, strlen(source), traits.kind,
+                                      SOURCE_NAME, "main", options);
     if (result == NULL ||
         shaderc_result_get_compilation_status(result) != shaderc_compilation_status_success) {
         const char *log = result != NULL ? shaderc_result_get_error_message(result) : "";
@@ -106,6 +118,5 @@ fm_status vulkan_shader_create(VkShaderModule *module, const vulkan *self, const
 out:
     shaderc_result_release(result);
     shaderc_compile_options_release(options);
-    shaderc_compiler_release(compiler);
     return status;
 }

@@ -158,6 +158,7 @@ static void close_device(fm_device *device)
     }
     if (self->has_hung) /* the driver still works on it, and messages would come to *self */
         return;
+    vulkan_compiler_destroy(self);
     vulkan_instance_destroy(self->instance, &self->validation);
     free(self);
 }
@@ -182,6 +183,8 @@ static fm_status open_device(fm_device **device, const fm_device_desc *desc, fm_
         status = vulkan_staging_create(&self->staging, self, err);
     if (status == FM_OK)
         status = vulkan_queries_create(self, err);
+    if (status == FM_OK)
+        status = vulkan_compiler_create(self, err);
     if (status != FM_OK)
         goto out;
     *device = &self->base;

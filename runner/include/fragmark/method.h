@@ -14,7 +14,9 @@
  * plugin. Lists end at the first entry whose name is NULL.
  *
  * What a shader sees (GLSL 4.50, the same text for Vulkan and OpenGL):
- *   buffers       by their names: fragments[i]; images through fm_load_NAME(pixel[, sample])
+ *   buffers       by their names: fragments[i]; fm_length_NAME is how many elements there are now
+ *   images        fm_load_NAME(pixel[, layer][, sample]), and fm_store_NAME(pixel, value) where the
+ *                 pass lists it in `writes`; a target is fm_target_NAME
  *   parameters    K, N (the most fragments of a pixel), FM_WIDTH, FM_HEIGHT, FM_PIXELS, and a
  *                 #define for each option (see fm_option)
  *   scene pass    defines  void store(uvec2 pixel, float depth, uint colour)
@@ -202,6 +204,7 @@ typedef struct fm_resource {
 
     fm_format format;       /* images */
     uint32_t samples;       /* images; 0 is 1 */
+    uint32_t samples_per_k; /* images; added: samples_per_k * k */
     uint32_t layers;        /* images; 0 is 1 */
     uint32_t layers_per_k;  /* images; added: layers_per_k * k */
     float clear_colour[4];  /* images; as bits for integer formats when the target loads by clear */
@@ -229,7 +232,8 @@ typedef enum fm_pass_kind {
     FM_PASS_TILES,     /* compute, once for each tile of the viewport */
     FM_PASS_TRIANGLES, /* compute, once for each triangle of the scene */
     FM_PASS_TOTAL,     /* compute, once for each unit of the total `count_total` */
-    FM_PASS_INDIRECT,  /* compute, workgroup counts from the first 12 bytes of `indirect` */
+    FM_PASS_INDIRECT,  /* compute, workgroup counts from the first 12 bytes of `indirect`; a
+                          workgroup has 64 invocations, numbered through */
     FM_PASS_CLEAR,     /* fills the resources in `writes` with clear_word, or images with their
                           clear values */
     FM_PASS_HOST,      /* reads totals back and calls the `after` hook */
