@@ -163,9 +163,10 @@ bool vulkan_format_has_stencil(fm_format format);
 /* Sample counts that images of all formats from first to last can have; bit s: s samples. */
 uint32_t vulkan_find_samples(VkPhysicalDevice physical, fm_format first, fm_format last);
 
-/* shader.c: one stage to SPIR-V and a module. name is the pipeline's. */
+/* shader.c: the compiler, for as long as the device is open. */
 fm_status vulkan_compiler_create(vulkan *self, fm_error *err);
 void vulkan_compiler_destroy(vulkan *self); /* also if none was created */
+/* One stage to SPIR-V and a module. name is the pipeline's. */
 fm_status vulkan_shader_create(VkShaderModule *module, const vulkan *self, const char *name,
                                VkShaderStageFlagBits stage, const char *source, fm_error *err);
 
