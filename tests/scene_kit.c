@@ -124,7 +124,8 @@ static void fill_desc(fm_instance_desc *desc, const kit_scene *scene, const fm_p
     };
 }
 
-fm_status kit_try(fm_measurement *measurement, kit_scene *scene, const kit_way *way, fm_error *err)
+fm_status kit_try(fm_measurement *measurement, kit_scene *scene, const kit_way *way, bool check,
+                  fm_error *err)
 {
     const fm_plugin_entry *entry = plugin_list_find(&scene->kit->plugins, way->method);
     fm_settings settings = scene->scene->settings;
@@ -152,24 +153,34 @@ fm_status kit_try(fm_measurement *measurement, kit_scene *scene, const kit_way *
                                    .truth = scene->truth,
                                    .frames = 1,
                                    .warmup = 1,
-                                   .check = true };
+                                   .check = check };
     if (status == FM_OK)
         status = measure_case(measurement, &desc, err);
     stage_destroy(stage);
     return status;
 }
 
-bool kit_measure(fm_measurement *measurement, kit_scene *scene, const kit_way *way)
+static bool measure(fm_measurement *measurement, kit_scene *scene, const kit_way *way, bool check)
 {
     fm_error err = { .message = "" };
     char where[256];
-    const fm_status status = kit_try(measurement, scene, way, &err);
+    const fm_status status = kit_try(measurement, scene, way, check, &err);
     kit_tell(where, way);
     if (status == FM_UNSUPPORTED)
         print_message("skipped: %s: %s\n", where, err.message);
     else if (status != FM_OK)
         fail_msg("%s: %s", where, err.message);
     return status == FM_OK;
+}
+
+bool kit_measure(fm_measurement *measurement, kit_scene *scene, const kit_way *way)
+{
+    return measure(measurement, scene, way, true);
+}
+
+bool kit_measure_times(fm_measurement *measurement, kit_scene *scene, const kit_way *way)
+{
+    return measure(measurement, scene, way, false);
 }
 
 fm_scene *kit_quads_create(uint32_t width_px, uint32_t height_px, uint32_t quads)

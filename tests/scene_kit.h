@@ -48,11 +48,14 @@ typedef struct kit_way {
     const char *texts;
 } kit_way;
 
-/* One warm-up frame, one timed frame, and the check of every fragment. The measurement is to be
- * freed, also after a failure. */
-fm_status kit_try(fm_measurement *measurement, kit_scene *scene, const kit_way *way, fm_error *err);
+/* One warm-up frame, one timed frame, and with `check` the check of every fragment. The measurement
+ * is to be freed, also after a failure. */
+fm_status kit_try(fm_measurement *measurement, kit_scene *scene, const kit_way *way, bool check,
+                  fm_error *err);
 /* The same; a failure other than FM_UNSUPPORTED fails the test. False: not supported, printed. */
 bool kit_measure(fm_measurement *measurement, kit_scene *scene, const kit_way *way);
+/* The same without the check of fragments: bytes and image only. */
+bool kit_measure_times(fm_measurement *measurement, kit_scene *scene, const kit_way *way);
 /* "kplus-array, compute-layer, k=8": for messages. */
 void kit_tell(char text[256], const kit_way *way);
 

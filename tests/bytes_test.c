@@ -1,0 +1,119 @@
+/* What methods ask for in bytes: their descriptors' formula, and the papers' own, written out. */
+#include <stdio.h>
+
+#include "scene_kit.h"
+
+typedef struct workload {
+    uint64_t pixels, k, n, fragments;
+} workload;
+
+/* N pixels, k kept, n layers, F fragments; a fragment is 8 bytes, a counter or a lock 4. */
+static uint64_t kplus(const workload *w)
+{
+    return (8 * w->k + 4 + 4) * w->pixels;
+}
+
+static uint64_t k_buffer(const workload *w)
+{
+    return 8 * w->k * w->pixels;
+}
+
+static uint64_t a_buffer(const workload *w)
+{
+    return (8 * w->n + 4) * w->pixels;
+}
+
+/* A depth and a colour. */
+static uint64_t z_buffer(const workload *w)
+{
+    return 8 * w->pixels;
+}
+
+/* Heads, nodes of fragment and link, two counters. The pool starts with a node a pixel. */
+static uint64_t linked_list(const workload *w)
+{
+    const uint64_t nodes = w->fragments > w->pixels ? w->fragments : w->pixels;
+    return 4 * w->pixels + 12 * nodes + 8;
+}
+
+static const struct formula {
+    const char *method;
+    uint64_t (*bytes)(const workload *);
+} formulas[] = {
+    { "kplus-array", kplus }, { "kplus-heap", kplus },  { "kb", k_buffer },
+    { "ab-array", a_buffer }, { "z-buffer", z_buffer }, { "ab-ll", linked_list },
+};
+
+static void expect_formula(const char *method, const workload *w, const fm_measurement *m)
+{
+    for (size_t i = 0; i < sizeof formulas / sizeof formulas[0]; i++)
+        if (strcmp(formulas[i].method, method) == 0 && formulas[i].bytes(w) != m->bytes_allocated)
+            fail_msg("%s, %u pixels, k=%u, n=%u: %llu bytes, by the paper %llu", method,
+                     (unsigned)w->pixels, (unsigned)w->k, (unsigned)w->n,
+                     (unsigned long long)m->bytes_allocated,
+                     (unsigned long long)formulas[i].bytes(w));
+}
+
+static void measure_bytes(kit_scene *scene, const fm_method_desc *method, uint32_t k)
+{
+    const workload w = { .pixels = (uint64_t)scene->scene->width_px * scene->scene->height_px,
+                         .k = k,
+                         .n = scene->truth->n,
+                         .fragments = scene->truth->fragment_count };
+    char texts[16];
+    fm_measurement m;
+    snprintf(texts, sizeof texts, "k=%u", k);
+    if (kit_measure_times(&m, scene, &(kit_way){ method->id, FM_FEED_RASTER, texts })) {
+        if (m.bytes_allocated != m.bytes_predicted)
+            fail_msg("%s, k=%u: %llu bytes allocated, %llu predicted", method->id, k,
+                     (unsigned long long)m.bytes_allocated, (unsigned long long)m.bytes_predicted);
+        assert_true(m.bytes_used <= m.bytes_allocated);
+        expect_formula(method->id, &w, &m);
+    }
+    measurement_free(&m);
+}
+
+static void bytes_on(void **state, const char *texts)
+{
+    static const uint32_t ks[] = { 1, 8 };
+    scene_kit kit;
+    kit_scene scene;
+    kit_open(&kit, device_of(state));
+    kit_scene_open(&scene, &kit, texts);
+    for (size_t i = 0; i < kit.plugins.count; i++)
+        for (size_t j = 0; j < sizeof ks / sizeof ks[0]; j++)
+            measure_bytes(&scene, kit_method(&kit, i), ks[j]);
+    kit_scene_close(&scene);
+    kit_close(&kit);
+}
+
+static void bytes_follow_the_formula_in_the_papers_viewport(void **state)
+{
+    bytes_on(state, "width_px=854 height_px=480 n=2");
+}
+
+static void bytes_follow_the_formula_in_one_pixel(void **state)
+{
+    bytes_on(state, "width_px=1 height_px=1 n=3 pixel_density=1");
+}
+
+static void bytes_follow_the_formula_in_a_few_pixels(void **state)
+{
+    bytes_on(state, "width_px=3 height_px=5 n=9 pixel_density=1");
+}
+
+static void bytes_follow_the_formula_in_an_odd_viewport(void **state)
+{
+    bytes_on(state, "width_px=1023 height_px=767 n=2 pixel_density=1");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        ON_EACH_DEVICE(bytes_follow_the_formula_in_the_papers_viewport),
+        ON_EACH_DEVICE(bytes_follow_the_formula_in_one_pixel),
+        ON_EACH_DEVICE(bytes_follow_the_formula_in_a_few_pixels),
+        ON_EACH_DEVICE(bytes_follow_the_formula_in_an_odd_viewport),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
