@@ -14,8 +14,16 @@
 
 enum { SIDE_PX = 16, PIXELS = SIDE_PX * SIDE_PX };
 
-/* Every test runs on a fresh device of each kind; *state is the device. */
+/* Every test runs on a fresh device of each kind, *state, and once under Vulkan's validation, which
+ * must find nothing wrong; without timers there, so that barriers come from accesses alone. */
 #define ON_EACH_DEVICE(test)                                                                       \
+    { #test " [vulkan]", test, open_vulkan, close_opened, NULL },                                  \
+        { #test " [vulkan, validated]", test, open_validated, close_opened, NULL },                \
+    {                                                                                              \
+#test " [osmesa]", test, open_osmesa, close_opened, NULL                                   \
+    }
+
+#define WITH_TIMERS(test)                                                                          \
     { #test " [vulkan]", test, open_vulkan, close_opened, NULL },                                  \
     {                                                                                              \
 #test " [osmesa]", test, open_osmesa, close_opened, NULL                                   \
@@ -31,13 +39,22 @@ static const char stacked_vertex[] __attribute__((unused)) =
     "  gl_Position = vec4(corner * 4.0 - 1.0, 0.75 - 0.25 * float(instance), 1.0);\n"
     "}\n";
 
-/* NULL: not on this machine; the reason is printed. */
+static inline bool is_built(const char *name)
+{
+    for (const fm_device_ops *const *ops = fm_device_table; *ops != NULL; ops++) {
+        if (strcmp((*ops)->name, name) == 0)
+            return true;
+    }
+    return false;
+}
+
+/* NULL: not on this machine, or not in this build; the reason is printed. */
 static inline fm_device *open_if_there(const char *name, const fm_device_desc *desc)
 {
     fm_device *device = NULL;
     fm_error err = { .message = "" };
     const fm_status status = device_open(&device, name, desc, &err);
-    if (status == FM_UNSUPPORTED)
+    if (status == FM_UNSUPPORTED || !is_built(name))
         print_message("skipped: %s\n", err.message);
     else if (status != FM_OK)
         fail_msg("%s", err.message);
@@ -50,6 +67,12 @@ static inline int open_vulkan(void **state)
     return 0;
 }
 
+static inline int open_validated(void **state)
+{
+    *state = open_if_there("vulkan", &(fm_device_desc){ .validation = true, .no_timers = true });
+    return 0;
+}
+
 static inline int open_osmesa(void **state)
 {
     *state = open_if_there("osmesa", &(fm_device_desc){ .selector = NULL });
@@ -58,7 +81,11 @@ static inline int open_osmesa(void **state)
 
 static inline int close_opened(void **state)
 {
-    device_close(*state);
+    fm_device *device = *state;
+    const char *first = "";
+    if (device != NULL && device->ops->validation_errors(device, &first) > 0)
+        fail_msg("%s", first);
+    device_close(device);
     return 0;
 }
 
@@ -126,13 +153,14 @@ static inline fm_frame_times end(fm_device *device)
     return times;
 }
 
-/* Draws `instances` triangles over the whole screen. */
+/* Draws `instances` times, three vertices unless told, over the whole screen. */
 static inline void draw(fm_device *device, fm_draw command, uint32_t instances)
 {
     fm_error err = { .message = "" };
     command.width_px = SIDE_PX;
     command.height_px = SIDE_PX;
-    command.vertex_count = 3;
+    command.query = command.query > 0 ? command.query : -1;
+    command.vertex_count = command.vertex_count > 0 ? command.vertex_count : 3;
     command.instance_count = instances;
     if (device->ops->draw(device, &command, &err) != FM_OK)
         fail_msg("%s", err.message);

@@ -1,0 +1,428 @@
+/* What every device draws alike: positions, depth, stencil, blending, samples and queries. */
+#include "device_kit.h"
+
+#include <math.h>
+
+/* Pixels as words: what `expression`, of a pixel p, finds in an image. */
+#define FETCH_SOURCE(sampler, expression)                                                          \
+    "#version 450\n"                                                                               \
+    "layout(local_size_x = 256) in;\n"                                                             \
+    "layout(binding = 0) uniform " sampler " image;\n"                                             \
+    "layout(std430, binding = 1) writeonly buffer To { uint to[]; };\n"                            \
+    "void main() {\n"                                                                              \
+    "  ivec2 p = ivec2(gl_LocalInvocationID.x & 15u, gl_LocalInvocationID.x >> 4);\n"              \
+    "  to[gl_LocalInvocationID.x] = " expression ";\n"                                             \
+    "}\n"
+
+static const char fetch_uint[] = FETCH_SOURCE("usampler2D", "texelFetch(image, p, 0).r");
+static const char fetch_red[] =
+    FETCH_SOURCE("sampler2D", "floatBitsToUint(texelFetch(image, p, 0).r)");
+static const char fetch_alpha[] =
+    FETCH_SOURCE("sampler2D", "floatBitsToUint(texelFetch(image, p, 0).a)");
+/* four samples, a byte each */
+static const char fetch_samples[] =
+    FETCH_SOURCE("sampler2DMS", "uint(texelFetch(image, p, 0).r) | uint(texelFetch(image, p, 1).r) "
+                                "<< 8 | uint(texelFetch(image, p, 2).r) << 16 | "
+                                "uint(texelFetch(image, p, 3).r) << 24");
+
+static const char instance_fragment[] = "#version 450\n"
+                                        "layout(location = 0) flat in int instance;\n"
+                                        "layout(location = 0) out uint target;\n"
+                                        "void main() { target = uint(instance) + 10u; }\n";
+
+static const char instance_fragment_float[] = "#version 450\n"
+                                              "layout(location = 0) flat in int instance;\n"
+                                              "layout(location = 0) out vec4 target;\n"
+                                              "void main() { target = vec4(instance + 1); }\n";
+
+/* Reads an image in the frame that wrote it, then ends that frame. */
+static fm_frame_times end_and_fetch(uint32_t words[PIXELS], fm_device *device,
+                                    fm_image_resource *image, const char *source)
+{
+    fm_buffer *to = make_words(device, PIXELS);
+    fm_pipeline *fetch = make_pipeline(
+        device,
+        (fm_pipeline_desc){ .compute = source,
+                            .bindings = { { 0, FM_BINDING_SAMPLED }, { 1, FM_BINDING_STORAGE } },
+                            .binding_count = 2 });
+    const fm_bind binds[] = { bind_sampled(0, image), bind_words(1, to, FM_ACCESS_WRITE) };
+    dispatch(device, fetch, binds, 2, 1);
+    const fm_frame_times times = end(device);
+    read_words(device, to, words, PIXELS);
+    device->ops->pipeline_destroy(device, fetch);
+    device->ops->buffer_destroy(device, to);
+    return times;
+}
+
+/* Rows 0 to 7 of columns 0 to 3, at depth 0.375, and no target: the shader writes what it got. */
+static void device_draws_at_the_pixels_vulkan_says(void **state)
+{
+    static const char vertex[] =
+        "#version 450\n"
+        "void main() {\n"
+        "  uint i = uint(gl_VertexIndex);\n"
+        "  vec2 corner = vec2(i == 1u || i == 3u || i == 4u, i == 2u || i == 4u || i == 5u);\n"
+        "  gl_Position = vec4(corner * vec2(0.5, 1.0) - 1.0, 0.375, 1.0);\n"
+        "}\n";
+    static const char fragment[] =
+        "#version 450\n"
+        "layout(std430, binding = 0) buffer Seen { uint seen[]; };\n"
+        "void main() {\n"
+        "  uvec2 p = uvec2(gl_FragCoord.xy);\n"
+        "  atomicAdd(seen[p.y * 16u + p.x], floatBitsToUint(gl_FragCoord.z));\n"
+        "}\n";
+    fm_device *device = device_of(state);
+    uint32_t words[PIXELS];
+    fm_buffer *seen = make_words(device, PIXELS);
+    fm_pipeline *pipeline =
+        make_pipeline(device, (fm_pipeline_desc){ .vertex = vertex,
+                                                  .fragment = fragment,
+                                                  .bindings = { { 0, FM_BINDING_STORAGE } },
+                                                  .binding_count = 1 });
+    const fm_bind bind = bind_words(0, seen, FM_ACCESS_READ | FM_ACCESS_WRITE);
+    begin(device);
+    device->ops->fill(device, seen, 0);
+    draw(device,
+         (fm_draw){ .pipeline = pipeline, .binds = &bind, .bind_count = 1, .vertex_count = 6 }, 1);
+    end(device);
+    read_words(device, seen, words, PIXELS);
+    for (uint32_t i = 0; i < PIXELS; i++) {
+        const bool is_inside = i % SIDE_PX < 4 && i / SIDE_PX < 8;
+        assert_true(as_float(words[i]) == (is_inside ? 0.375f : 0.0f)); /* once each */
+    }
+    device->ops->pipeline_destroy(device, pipeline);
+    device->ops->buffer_destroy(device, seen);
+}
+
+/* Three instances, each nearer than the last; a fourth draw behind them must not show. */
+static void device_keeps_the_nearest_by_depth(void **state)
+{
+    fm_device *device = device_of(state);
+    uint32_t words[PIXELS];
+    fm_image_resource *target = make_image(device, FM_FORMAT_R32UI, 1);
+    fm_image_resource *depth = make_image(device, FM_FORMAT_D32F, 1);
+    fm_pipeline *pipeline = make_pipeline(
+        device,
+        (fm_pipeline_desc){ .fragment = instance_fragment,
+                            .targets = { { .format = FM_FORMAT_R32UI } },
+                            .target_count = 1,
+                            .depth_stencil = FM_FORMAT_D32F,
+                            .state = { .depth_test = FM_COMPARE_LESS, .depth_write = true } });
+    fm_draw command = { .pipeline = pipeline,
+                        .targets = { target },
+                        .target_loads = { FM_LOAD_CLEAR },
+                        .target_count = 1,
+                        .depth_stencil = depth,
+                        .depth_stencil_load = FM_LOAD_CLEAR,
+                        .clear_depth = 1.0f };
+    begin(device);
+    draw(device, command, 3);
+    command.target_loads[0] = command.depth_stencil_load = FM_LOAD_KEEP;
+    draw(device, command, 1);
+    end_and_fetch(words, device, target, fetch_uint);
+    for (uint32_t i = 0; i < PIXELS; i++)
+        assert_int_equal(words[i], 12);
+    begin(device);
+    end_and_fetch(words, device, depth, fetch_red);
+    assert_true(as_float(words[17]) == 0.25f);
+    device->ops->pipeline_destroy(device, pipeline);
+    device->ops->image_destroy(device, target);
+    device->ops->image_destroy(device, depth);
+}
+
+static void device_clears_integers_as_bits(void **state)
+{
+    fm_device *device = device_of(state);
+    uint32_t words[PIXELS];
+    const float colour[4] = { as_float(0x12345678u) };
+    fm_image_resource *target = make_image(device, FM_FORMAT_R32UI, 1);
+    fm_image_resource *depth = make_image(device, FM_FORMAT_D32F, 1);
+    fm_pipeline *pipeline =
+        make_pipeline(device, (fm_pipeline_desc){ .fragment = instance_fragment,
+                                                  .targets = { { FM_FORMAT_R32UI, 0, true } },
+                                                  .target_count = 1 });
+    fm_draw command = { .pipeline = pipeline,
+                        .targets = { target },
+                        .target_loads = { FM_LOAD_CLEAR },
+                        .target_clears = { { as_float(0x00C0FFEEu) } },
+                        .target_count = 1 };
+    begin(device);
+    draw(device, command, 1); /* writes nothing: the colour mask is off */
+    end_and_fetch(words, device, target, fetch_uint);
+    assert_int_equal(words[200], 0x00C0FFEEu);
+    begin(device);
+    device->ops->image_clear(device, target, colour, 0, 0);
+    device->ops->image_clear(device, depth, colour, 0.625f, 0);
+    end_and_fetch(words, device, target, fetch_uint);
+    assert_int_equal(words[200], 0x12345678u);
+    begin(device);
+    end_and_fetch(words, device, depth, fetch_red);
+    assert_true(as_float(words[200]) == 0.625f);
+    device->ops->pipeline_destroy(device, pipeline);
+    device->ops->image_destroy(device, target);
+    device->ops->image_destroy(device, depth);
+}
+
+typedef struct blend_case {
+    fm_blend blend;
+    float red, alpha; /* what is expected of source (0.25, 0.75) over target (0.5, 0.5) */
+} blend_case;
+
+static void check_blend(fm_device *device, const blend_case *expected)
+{
+    static const char fragment[] = "#version 450\n"
+                                   "layout(location = 0) out vec4 target;\n"
+                                   "void main() { target = vec4(0.25, 0.5, 0.5, 0.75); }\n";
+    uint32_t red[PIXELS], alpha[PIXELS];
+    fm_image_resource *target = make_image(device, FM_FORMAT_RGBA32F, 1);
+    fm_pipeline *pipeline =
+        make_pipeline(device, (fm_pipeline_desc){ .fragment = fragment,
+                                                  .targets = { { .format = FM_FORMAT_RGBA32F,
+                                                                 .blend = expected->blend } },
+                                                  .target_count = 1 });
+    const fm_draw command = { .pipeline = pipeline,
+                              .targets = { target },
+                              .target_loads = { FM_LOAD_CLEAR },
+                              .target_clears = { { 0.5f, 0.5f, 0.5f, 0.5f } },
+                              .target_count = 1 };
+    begin(device);
+    draw(device, command, 1);
+    end_and_fetch(red, device, target, fetch_red);
+    begin(device);
+    end_and_fetch(alpha, device, target, fetch_alpha);
+    assert_true(fabsf(as_float(red[99]) - expected->red) < 1e-6f);
+    assert_true(fabsf(as_float(alpha[99]) - expected->alpha) < 1e-6f);
+    device->ops->pipeline_destroy(device, pipeline);
+    device->ops->image_destroy(device, target);
+}
+
+static void device_blends_as_the_interface_says(void **state)
+{
+    static const blend_case cases[] = {
+        { FM_BLEND_OFF, 0.25f, 0.75f },
+        { FM_BLEND_ADD, 0.75f, 1.25f },
+        { FM_BLEND_MAX, 0.5f, 0.75f },
+        { FM_BLEND_MIN, 0.25f, 0.5f },
+        { FM_BLEND_OVER, 0.25f + 0.5f * 0.25f, 0.75f + 0.5f * 0.25f },
+        { FM_BLEND_UNDER, 0.5f + 0.25f * 0.5f, 0.5f * 0.25f },
+        { FM_BLEND_PRODUCT, 0.5f * 0.75f, 0.5f * 0.25f },
+    };
+    fm_device *device = device_of(state);
+    _Static_assert(sizeof cases / sizeof cases[0] == FM_BLEND_COUNT, "each blend once");
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
+        check_blend(device, &cases[i]);
+}
+
+/* Every fragment takes one from the stencil; number `iteration` to arrive finds the reference. */
+static uint32_t route(fm_device *device, uint32_t iteration)
+{
+    uint32_t words[PIXELS];
+    fm_image_resource *target = make_image(device, FM_FORMAT_R32UI, 1);
+    fm_image_resource *stencil = make_image(device, FM_FORMAT_D32F_S8, 1);
+    fm_pipeline *pipeline = make_pipeline(
+        device, (fm_pipeline_desc){ .fragment = instance_fragment,
+                                    .targets = { { .format = FM_FORMAT_R32UI } },
+                                    .target_count = 1,
+                                    .depth_stencil = FM_FORMAT_D32F_S8,
+                                    .iteration = iteration,
+                                    .state = { .stencil_test = FM_COMPARE_EQUAL,
+                                               .stencil_reference = 7,
+                                               .stencil_reference_step = ~0u, /* -1 */
+                                               .stencil_fail = FM_STENCIL_DECREMENT,
+                                               .stencil_pass = FM_STENCIL_DECREMENT } });
+    const fm_draw command = { .pipeline = pipeline,
+                              .targets = { target },
+                              .target_loads = { FM_LOAD_CLEAR },
+                              .target_count = 1,
+                              .depth_stencil = stencil,
+                              .depth_stencil_load = FM_LOAD_CLEAR,
+                              .clear_stencil = 7 };
+    begin(device);
+    draw(device, command, 3);
+    end_and_fetch(words, device, target, fetch_uint);
+    device->ops->pipeline_destroy(device, pipeline);
+    device->ops->image_destroy(device, target);
+    device->ops->image_destroy(device, stencil);
+    return words[33];
+}
+
+static void device_routes_fragments_by_stencil(void **state)
+{
+    fm_device *device = device_of(state);
+    for (uint32_t i = 0; i < 3; i++)
+        assert_int_equal(route(device, i), 10 + i);
+    assert_int_equal(route(device, 3), 0); /* nobody */
+}
+
+static void device_masks_samples(void **state)
+{
+    fm_device *device = device_of(state);
+    uint32_t words[PIXELS];
+    if ((device->caps.colour_samples & 1u << 4) == 0)
+        skip();
+    fm_image_resource *target = make_image(device, FM_FORMAT_R32F, 4);
+    begin(device);
+    fm_pipeline *pipelines[3];
+    for (uint32_t i = 0; i < 3; i++) {
+        pipelines[i] = make_pipeline(
+            device,
+            (fm_pipeline_desc){ .fragment = instance_fragment_float,
+                                .targets = { { .format = FM_FORMAT_R32F, .blend = FM_BLEND_ADD } },
+                                .target_count = 1,
+                                .samples = 4,
+                                .iteration = i,
+                                .state = { .sample_mask = 2, .sample_mask_step = 1 } });
+        draw(device,
+             (fm_draw){ .pipeline = pipelines[i],
+                        .targets = { target },
+                        .target_loads = { i == 0 ? FM_LOAD_CLEAR : FM_LOAD_KEEP },
+                        .target_count = 1 },
+             i + 1);
+    }
+    end_and_fetch(words, device, target, fetch_samples);
+    /* one instance into sample 1, two (1 + 2) into 2, three (1 + 2 + 3) into 3 */
+    assert_int_equal(words[120], 1u << 8 | 3u << 16 | 6u << 24);
+    for (uint32_t i = 0; i < 3; i++)
+        device->ops->pipeline_destroy(device, pipelines[i]);
+    device->ops->image_destroy(device, target);
+}
+
+static void device_counts_samples_that_pass(void **state)
+{
+    fm_device *device = device_of(state);
+    uint32_t words[PIXELS];
+    fm_image_resource *depth = make_image(device, FM_FORMAT_D32F, 1);
+    fm_pipeline *pipeline = make_pipeline(
+        device,
+        (fm_pipeline_desc){ .fragment = "#version 450\nvoid main() {}\n",
+                            .depth_stencil = FM_FORMAT_D32F,
+                            .state = { .depth_test = FM_COMPARE_LESS, .depth_write = true } });
+    fm_draw command = { .pipeline = pipeline,
+                        .depth_stencil = depth,
+                        .depth_stencil_load = FM_LOAD_CLEAR,
+                        .clear_depth = 0.6f,
+                        .query = 3 };
+    begin(device);
+    draw(device, command, 3); /* the first is at 0.75 */
+    command.depth_stencil_load = FM_LOAD_KEEP;
+    command.query = 5;
+    draw(device, command, 3);
+    command.query = 3;
+    command.depth_stencil_load = FM_LOAD_CLEAR;
+    draw(device, command, 2);
+    const fm_frame_times times = end_and_fetch(words, device, depth, fetch_red);
+    assert_int_equal(times.query[3], 3 * PIXELS); /* two, and one more */
+    assert_int_equal(times.query[5], 0);
+    assert_int_equal(times.query[4], 0);
+    device->ops->pipeline_destroy(device, pipeline);
+    device->ops->image_destroy(device, depth);
+}
+
+static fm_pipeline *make_flat(fm_device *device)
+{
+    static const char vertex[] = "#version 450\n"
+                                 "layout(location = 0) in vec3 position;\n"
+                                 "layout(location = 1) in uint word;\n"
+                                 "layout(location = 0) flat out uint colour;\n"
+                                 "void main() {\n"
+                                 "  colour = word;\n"
+                                 "  gl_Position = vec4(position, 1.0);\n"
+                                 "}\n";
+    static const char fragment[] = "#version 450\n"
+                                   "layout(location = 0) flat in uint colour;\n"
+                                   "layout(location = 0) out uint target;\n"
+                                   "void main() { target = colour; }\n";
+    return make_pipeline(
+        device,
+        (fm_pipeline_desc){
+            .vertex = vertex,
+            .fragment = fragment,
+            .targets = { { .format = FM_FORMAT_R32UI } },
+            .target_count = 1,
+            .vertex_stride_bytes = 16,
+            .attributes = { { .location = 0, .is_vec3 = true },
+                            { .location = 1, .element = FM_ELEMENT_UINT, .offset_bytes = 12 } },
+            .attribute_count = 2 });
+}
+
+/* Flat attributes come from the first vertex of a triangle, which the indices make vertex 2. */
+static void device_reads_vertices_through_indices(void **state)
+{
+    static const struct {
+        float x, y, z;
+        uint32_t colour;
+    } vertices[] = { { -1, -1, 0.5f, 7 }, { 3, -1, 0.5f, 8 }, { -1, 3, 0.5f, 9 } };
+    static const uint32_t indices[] = { 2, 0, 1 };
+    fm_device *device = device_of(state);
+    uint32_t words[PIXELS];
+    fm_image_resource *target = make_image(device, FM_FORMAT_R32UI, 1);
+    fm_buffer *vertex_buffer =
+        make_buffer(device, (fm_buffer_desc){ .bytes = sizeof vertices, .is_vertex = true });
+    fm_buffer *index_buffer =
+        make_buffer(device, (fm_buffer_desc){ .bytes = sizeof indices, .is_index = true });
+    fm_pipeline *pipeline = make_flat(device);
+    begin(device);
+    device->ops->update(device, vertex_buffer, 0, vertices, sizeof vertices);
+    device->ops->update(device, index_buffer, 0, indices, sizeof indices);
+    draw(device,
+         (fm_draw){ .pipeline = pipeline,
+                    .targets = { target },
+                    .target_loads = { FM_LOAD_CLEAR },
+                    .target_count = 1,
+                    .vertices = vertex_buffer,
+                    .indices = index_buffer },
+         1);
+    end_and_fetch(words, device, target, fetch_uint);
+    for (uint32_t i = 0; i < PIXELS; i++)
+        assert_int_equal(words[i], 9);
+    device->ops->pipeline_destroy(device, pipeline);
+    device->ops->buffer_destroy(device, vertex_buffer);
+    device->ops->buffer_destroy(device, index_buffer);
+    device->ops->image_destroy(device, target);
+}
+
+static void device_stores_to_images(void **state)
+{
+    static const char store[] = "#version 450\n"
+                                "layout(local_size_x = 16, local_size_y = 16) in;\n"
+                                "layout(binding = 0, r32ui) uniform uimage2D image;\n"
+                                "void main() {\n"
+                                "  ivec2 p = ivec2(gl_LocalInvocationID.xy);\n"
+                                "  imageAtomicAdd(image, p, uint(p.y * 100 + p.x));\n"
+                                "}\n";
+    static const float zero[4] = { 0 };
+    fm_device *device = device_of(state);
+    uint32_t words[PIXELS];
+    fm_image_resource *image = make_image(device, FM_FORMAT_R32UI, 1);
+    fm_pipeline *pipeline =
+        make_pipeline(device, (fm_pipeline_desc){ .compute = store,
+                                                  .bindings = { { 0, FM_BINDING_STORAGE_IMAGE } },
+                                                  .binding_count = 1 });
+    const fm_bind bind = { .kind = FM_BINDING_STORAGE_IMAGE,
+                           .image = image,
+                           .access = FM_ACCESS_READ | FM_ACCESS_WRITE };
+    begin(device);
+    device->ops->image_clear(device, image, zero, 0, 0);
+    dispatch(device, pipeline, &bind, 1, 1);
+    dispatch(device, pipeline, &bind, 1, 1);
+    end_and_fetch(words, device, image, fetch_uint);
+    assert_int_equal(words[3 * SIDE_PX + 5], 2 * 305);
+    device->ops->pipeline_destroy(device, pipeline);
+    device->ops->image_destroy(device, image);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        ON_EACH_DEVICE(device_draws_at_the_pixels_vulkan_says),
+        ON_EACH_DEVICE(device_keeps_the_nearest_by_depth),
+        ON_EACH_DEVICE(device_clears_integers_as_bits),
+        ON_EACH_DEVICE(device_blends_as_the_interface_says),
+        ON_EACH_DEVICE(device_routes_fragments_by_stencil),
+        ON_EACH_DEVICE(device_masks_samples),
+        ON_EACH_DEVICE(device_counts_samples_that_pass),
+        ON_EACH_DEVICE(device_reads_vertices_through_indices),
+        ON_EACH_DEVICE(device_stores_to_images),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
