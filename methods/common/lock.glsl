@@ -26,7 +26,11 @@ void fm_take(uvec2 pixel, float depth, uint colour)
         memoryBarrierBuffer(); // what this owner stored is visible before the lock is free
 #endif
         if (is_mine) {
+#if FM_LOCK_BARRIERS
             atomicExchange(fm_locks[lock], 0u);
+#else
+            fm_locks[lock] = 0u; // stores stay in order on such processors; an exchange costs more
+#endif
             is_done = true;
         }
     }

@@ -9,29 +9,28 @@ bool wanted(uvec2 pixel, float depth)
 }
 
 // The max-array: k-1 unsorted fragments, and in slot 0 the farthest of all k once they are there.
+// Both ways to store end in one write, since software rasterisers run both sides of every branch.
 void store(uvec2 pixel, float depth, uint colour)
 {
     uint i = fm_pixel_index(pixel);
     uint count = counters[i];
     uvec2 fragment = fm_pack(depth, colour);
-    if (count + 1u < K) { // filled from the back: O(1)
-        fragments[array_slot(pixel, K - 1u - count, K)] = fragment;
-        counters[i] = count + 1u;
-        return;
-    }
-    if (count == K && fragment.x >= fragments[array_slot(pixel, 0u, K)].x)
-        return;
-    counters[i] = K;
-    uint farthest = 0u;
-    uint farthest_bits = fragment.x;
-    FM_LOOP for (uint slot = 1u; slot < K; ++slot) { // O(k): who is the farthest now
-        uint bits = fragments[array_slot(pixel, slot, K)].x;
-        if (bits > farthest_bits) {
-            farthest = slot;
-            farthest_bits = bits;
+    uint slot = K - 1u - count; // filled from the back: O(1)
+    if (count + 1u >= K) { // O(k): the farthest of slots 1..k-1 or the new one goes to slot 0
+        if (fragment.x >= fragments[array_slot(pixel, 0u, K)].x)
+            return; // infinity before the array is full
+        uint farthest_bits = fragment.x;
+        slot = 0u;
+        FM_LOOP for (uint other = 1u; other < K; ++other) {
+            uint bits = fragments[array_slot(pixel, other, K)].x;
+            slot = bits > farthest_bits ? other : slot;
+            farthest_bits = max(bits, farthest_bits);
         }
+        if (slot > 0u)
+            fragments[array_slot(pixel, 0u, K)] =
+                uvec2(farthest_bits, fragments[array_slot(pixel, slot, K)].y);
     }
-    if (farthest > 0u)
-        fragments[array_slot(pixel, 0u, K)] = fragments[array_slot(pixel, farthest, K)];
-    fragments[array_slot(pixel, farthest, K)] = fragment;
+    fragments[array_slot(pixel, slot, K)] = fragment;
+    if (count < K)
+        counters[i] = count + 1u;
 }

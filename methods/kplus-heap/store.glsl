@@ -11,51 +11,57 @@ bool wanted(uvec2 pixel, float depth)
     return count < K || fm_pack(depth, 0u).x < fragments[array_slot(pixel, 0u, K)].x;
 }
 
-void sift_up(uvec2 pixel, uint at, uvec2 fragment)
+// Where a fragment goes that is appended behind `count` others: ancestors that are nearer move down.
+uint sift_up(uvec2 pixel, uint at, uint bits)
 {
     FM_LOOP while (at > 0u) {
         uint parent = (at - 1u) / 2u;
-        uvec2 item = fragments[array_slot(pixel, parent, K)];
-        if (item.x >= fragment.x)
+        uint parent_bits = fragments[array_slot(pixel, parent, K)].x;
+        if (parent_bits >= bits)
             break;
-        fragments[array_slot(pixel, at, K)] = item;
+        fragments[array_slot(pixel, at, K)] =
+            uvec2(parent_bits, fragments[array_slot(pixel, parent, K)].y);
         at = parent;
     }
-    fragments[array_slot(pixel, at, K)] = fragment;
+    return at;
 }
 
-void sift_down(uvec2 pixel, uvec2 fragment)
+// Where a fragment goes that takes the root's place: the farther child moves up.
+uint sift_down(uvec2 pixel, uint bits)
 {
     uint at = 0u, child = 1u;
     FM_LOOP while (child < K) {
-        uvec2 item = fragments[array_slot(pixel, child, K)];
-        if (child + 1u < K) { // the last level may be short
-            uvec2 sibling = fragments[array_slot(pixel, child + 1u, K)];
-            if (sibling.x > item.x) {
-                item = sibling;
-                ++child;
-            }
-        }
-        if (item.x <= fragment.x)
+        uint sibling = min(child + 1u, K - 1u); // the last level may be short
+        uint child_bits = fragments[array_slot(pixel, child, K)].x;
+        uint sibling_bits = fragments[array_slot(pixel, sibling, K)].x;
+        child = sibling_bits > child_bits ? sibling : child;
+        child_bits = max(child_bits, sibling_bits);
+        if (child_bits <= bits)
             break;
-        fragments[array_slot(pixel, at, K)] = item;
+        fragments[array_slot(pixel, at, K)] =
+            uvec2(child_bits, fragments[array_slot(pixel, child, K)].y);
         at = child;
         child = 2u * at + 1u;
     }
-    fragments[array_slot(pixel, at, K)] = fragment;
+    return at;
 }
 
+// Both ways to store end in one write, since software rasterisers run both sides of every branch.
 void store(uvec2 pixel, float depth, uint colour)
 {
     uint i = fm_pixel_index(pixel);
     uint count = counters[i];
     uvec2 fragment = fm_pack(depth, colour);
-    if (count < K) { // O(log k) for each, as the paper builds it
-        sift_up(pixel, count, fragment);
-        if (count + 1u == K)
-            fm_fence();
+    uint at;
+    if (count < K) // O(log k) for each, as the paper builds it
+        at = sift_up(pixel, count, fragment.x);
+    else if (fragment.x < fragments[array_slot(pixel, 0u, K)].x)
+        at = sift_down(pixel, fragment.x);
+    else
+        return;
+    fragments[array_slot(pixel, at, K)] = fragment;
+    if (count + 1u == K)
+        fm_fence();
+    if (count < K)
         counters[i] = count + 1u;
-    } else if (fragment.x < fragments[array_slot(pixel, 0u, K)].x) {
-        sift_down(pixel, fragment);
-    }
 }
