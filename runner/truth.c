@@ -81,7 +81,22 @@ static bool find_arrays(fm_truth *truth, const truth_header *header)
     truth->fragments = (const fm_fragment *)(const void *)(at + offsets_bytes);
     if (header->has_arrival)
         truth->arrival = (const uint32_t *)(const void *)(truth->fragments + count);
-    return truth->offsets[pixels] == count;
+    return truth->offsets[0] == 0 && truth->offsets[pixels] == count;
+}
+
+/* What readers rely on: offsets that rise by n at most, ranks of arrival within their pixel. */
+static bool is_sound(const fm_truth *truth)
+{
+    const uint64_t pixels = (uint64_t)truth->width_px * truth->height_px;
+    for (uint64_t pixel = 0; pixel < pixels; pixel++) {
+        const uint64_t first = truth->offsets[pixel], last = truth->offsets[pixel + 1];
+        if (first > last || last > truth->fragment_count || last - first > truth->n)
+            return false;
+        for (uint64_t i = first; truth->arrival != NULL && i < last; i++)
+            if (truth->arrival[i] >= last - first)
+                return false;
+    }
+    return true;
 }
 
 fm_status truth_open(fm_truth **out, const char *path, fm_error *err)
@@ -108,7 +123,8 @@ fm_status truth_open(fm_truth **out, const char *path, fm_error *err)
     truth->n = header->n;
     truth->fragment_count = header->fragment_count;
     truth->nonempty_pixels = header->nonempty_pixels;
-    if (memcmp(header->magic, magic, sizeof magic) != 0 || !find_arrays(truth, header)) {
+    if (memcmp(header->magic, magic, sizeof magic) != 0 || !find_arrays(truth, header) ||
+        !is_sound(truth)) {
         status = fm_fail(err, FM_IO, "%s: damaged truth file", path);
         goto out;
     }
