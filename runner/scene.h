@@ -77,7 +77,8 @@ fm_status mesh_load(fm_scene *scene, fm_error *err);
 
 /* Closed form of a layers scene: the fragments of one pixel in arrival order; room for scene->n.
  * Returns how many. Flat layers are exact; the depth of sloped ones is evaluated in double and
- * rounded once, which a rasteriser's interpolation may miss by about 2 ulp. */
+ * rounded once, which a rasteriser's interpolation may miss by 2 steps of 2^-24 (more ulp where
+ * depths are small). */
 typedef struct fm_fragment {
     float depth;
     uint32_t colour;

@@ -110,10 +110,10 @@ static void bytes_follow_the_formula_in_an_odd_viewport(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        ON_EACH_DEVICE(bytes_follow_the_formula_in_the_papers_viewport),
-        ON_EACH_DEVICE(bytes_follow_the_formula_in_one_pixel),
-        ON_EACH_DEVICE(bytes_follow_the_formula_in_a_few_pixels),
-        ON_EACH_DEVICE(bytes_follow_the_formula_in_an_odd_viewport),
+        ON_VULKAN_AND_OSMESA(bytes_follow_the_formula_in_the_papers_viewport),
+        ON_VULKAN_AND_OSMESA(bytes_follow_the_formula_in_one_pixel),
+        ON_VULKAN_AND_OSMESA(bytes_follow_the_formula_in_a_few_pixels),
+        ON_VULKAN_AND_OSMESA(bytes_follow_the_formula_in_an_odd_viewport),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -341,11 +341,11 @@ static void null_hands_over_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        ON_EACH_DEVICE(methods_agree_with_paper_on_few_layers),
-        ON_EACH_DEVICE(two_layers_mix_as_computed_by_head),
-        ON_EACH_DEVICE(depth_one_is_lost_only_where_declared),
-        ON_EACH_DEVICE(methods_agree_with_truth_on_scenes_of_all_kinds),
-        ON_EACH_DEVICE(null_hands_over_nothing),
+        ON_VULKAN_AND_OSMESA(methods_agree_with_paper_on_few_layers),
+        ON_VULKAN_AND_OSMESA(two_layers_mix_as_computed_by_head),
+        ON_VULKAN_AND_OSMESA(depth_one_is_lost_only_where_declared),
+        ON_VULKAN_AND_OSMESA(methods_agree_with_truth_on_scenes_of_all_kinds),
+        ON_VULKAN_AND_OSMESA(null_hands_over_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

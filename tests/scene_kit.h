@@ -24,6 +24,13 @@ typedef struct kit_scene {
     char truth_path[32];
 } kit_scene;
 
+/* Every test runs on a fresh device of each kind; *state is the device. */
+#define ON_VULKAN_AND_OSMESA(test)                                                                 \
+    { #test " [vulkan]", test, open_vulkan, close_opened, NULL },                                  \
+    {                                                                                              \
+#test " [osmesa]", test, open_osmesa, close_opened, NULL                                   \
+    }
+
 void kit_open(scene_kit *kit, fm_device *device);
 void kit_close(scene_kit *kit);
 
