@@ -103,6 +103,31 @@ static void device_orders_dependent_dispatches(void **state)
     device->ops->buffer_destroy(device, buffers[1]);
 }
 
+/* The second copy overwrites what the first reads, and nothing else orders the two. */
+static void device_orders_a_write_after_a_read(void **state)
+{
+    enum { COUNT = 1 << 16 };
+    fm_device *device = device_of(state);
+    fm_buffer *buffers[3];
+    fm_pipeline *pipeline = make_copy(device);
+    uint32_t word = 0;
+    for (int i = 0; i < 3; i++)
+        buffers[i] = make_words(device, COUNT);
+    begin(device);
+    device->ops->fill(device, buffers[0], 2);
+    device->ops->fill(device, buffers[2], 9);
+    copy(device, pipeline, buffers[0], buffers[1], COUNT);
+    copy(device, pipeline, buffers[2], buffers[0], COUNT);
+    end(device);
+    read_words(device, buffers[1], &word, 1);
+    assert_int_equal(word, 7);
+    read_words(device, buffers[0], &word, 1);
+    assert_int_equal(word, 28);
+    device->ops->pipeline_destroy(device, pipeline);
+    for (int i = 0; i < 3; i++)
+        device->ops->buffer_destroy(device, buffers[i]);
+}
+
 static void device_fills_and_updates_in_order(void **state)
 {
     fm_device *device = device_of(state);
@@ -292,6 +317,7 @@ int main(void)
         ON_EACH_DEVICE(device_returns_the_bytes_that_were_written),
         ON_EACH_DEVICE(device_computes),
         ON_EACH_DEVICE(device_orders_dependent_dispatches),
+        ON_EACH_DEVICE(device_orders_a_write_after_a_read),
         ON_EACH_DEVICE(device_fills_and_updates_in_order),
         ON_EACH_DEVICE(device_takes_group_counts_from_a_buffer),
         ON_EACH_DEVICE(device_refuses_more_groups_than_it_can),
