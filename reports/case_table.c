@@ -11,10 +11,11 @@
 static const struct {
     const char *title, *help;
 } columns[] = {
-    { "", "&#9679;: on the Pareto frontier" },
+    { "&#9679;", "on the Pareto frontier" },
     { "method", "as its paper names it" },
     { "k", "fragments kept per pixel" },
     { "n", "most fragments of any pixel" },
+    { "status", "ok, or why there is no time" },
     { "frame_ms", "median of all samples: the sum of the GPU passes" },
     { "interval", "95 % bootstrap interval of frame_ms" },
     { "&times; floor", "store time over the floor's" },
@@ -25,9 +26,9 @@ static const struct {
     { "rmse", "against the truth of what the method promises to keep" },
     { "total_rmse", "against the picture of all fragments" },
     { "truncation_rmse", "what keeping only k costs, whatever the method" },
-    { "status", "ok, or why there is no time" },
-    { "message", "" },
+    { "message", "" }, /* last: left out where none has one */
 };
+enum { COLUMN_COUNT = sizeof columns / sizeof columns[0] };
 
 void case_table_bytes(char text[24], double bytes)
 {
@@ -63,12 +64,20 @@ static void add_memory(fm_text *page, const fm_case_row *result)
              result->bytes_allocated, result->bytes_allocated, bytes);
 }
 
+static bool has_message(const fm_group *group)
+{
+    for (size_t i = 0; i < group->count; i++)
+        if (group->cases[i]->message[0] != '\0')
+            return true;
+    return false;
+}
+
 static void add_row(fm_text *page, const fm_group *group, size_t index, bool on_frontier)
 {
     const fm_case_row *result = group->cases[index];
     char title[96];
     group_series_title(title, result);
-    text_add(page, "<tr class=\"%s\"><td data-v=\"%d\">%s</td><td>",
+    text_add(page, "<tr class=\"%s\"><td data-v=\"%d\">%s</td><td class=name>",
              result->is_ok         ? "ok"
              : result->is_measured ? "wrong"
                                    : "none",
@@ -77,6 +86,7 @@ static void add_row(fm_text *page, const fm_group *group, size_t index, bool on_
     text_add(page, "</td>");
     html_add_number(page, 8, result->k);
     html_add_number(page, 8, result->n);
+    text_add(page, "<td>%s</td>", result->status); /* one of the known words */
     add_time(page, result);
     add_memory(page, result);
     html_add_number(page, 12, result->missing);
@@ -85,9 +95,12 @@ static void add_row(fm_text *page, const fm_group *group, size_t index, bool on_
     html_add_number(page, 3, result->rmse);
     html_add_number(page, 3, result->total_rmse);
     html_add_number(page, 3, result->truncation_rmse);
-    text_add(page, "<td>%s</td><td>", result->status); /* one of the known words */
-    html_add(page, result->message);
-    text_add(page, "</td></tr>\n");
+    if (has_message(group)) {
+        text_add(page, "<td class=message>");
+        html_add(page, result->message);
+        text_add(page, "</td>");
+    }
+    text_add(page, "</tr>\n");
 }
 
 void case_table_add(fm_text *page, const fm_group *group)
@@ -99,7 +112,7 @@ void case_table_add(fm_text *page, const fm_group *group)
     }
     speed_error_frontier(on, group);
     text_add(page, "<div class=table><table><thead><tr>");
-    for (size_t i = 0; i < sizeof columns / sizeof columns[0]; i++)
+    for (size_t i = 0; i < COLUMN_COUNT - (has_message(group) ? 0 : 1); i++)
         text_add(page, "<th title=\"%s\">%s</th>", columns[i].help, columns[i].title);
     text_add(page, "</tr></thead><tbody>\n");
     for (size_t i = 0; i < group->count; i++)
