@@ -41,11 +41,18 @@ static bool same_number(double a, double b)
     return a == b || (isnan(a) && isnan(b));
 }
 
+/* A case that was never opened on its device has not got the device's name. */
+static bool same_device(const fm_case_row *a, const fm_case_row *b)
+{
+    return strcmp(a->device, b->device) == 0 &&
+           (a->device_name[0] == '\0' || b->device_name[0] == '\0' ||
+            strcmp(a->device_name, b->device_name) == 0);
+}
+
 /* n of a mesh is known only from truth, the same for all; n of r * k layers grows with k. */
 static bool same_workload(const fm_case_row *a, const fm_case_row *b)
 {
-    return strcmp(a->scene, b->scene) == 0 && strcmp(a->device, b->device) == 0 &&
-           strcmp(a->device_name, b->device_name) == 0 && strcmp(a->feed, b->feed) == 0 &&
+    return strcmp(a->scene, b->scene) == 0 && same_device(a, b) && strcmp(a->feed, b->feed) == 0 &&
            strcmp(a->order, b->order) == 0 && strcmp(a->seed, b->seed) == 0 &&
            same_number(a->width_px, b->width_px) && same_number(a->height_px, b->height_px) &&
            (isnan(a->n) || isnan(b->n) || a->n == b->n) && same_number(a->r, b->r) &&
@@ -105,8 +112,7 @@ static void add_number(char *text, size_t room, const char *name, double value)
         snprintf(text + used, room - used, ", %s %.6g", name, value);
 }
 
-/* Procedural scenes with the printed properties of models that the papers do not share. */
-static bool is_stand_in(const char *scene)
+bool group_is_stand_in(const char *scene)
 {
     static const char *const names[] = { "bunny-in-cube", "palace", "hairball", "hotel",
                                          "ivy",           "engine", "temple" };
@@ -116,12 +122,21 @@ static bool is_stand_in(const char *scene)
     return false;
 }
 
+/* A case that knows what all of its group share: one that ran, if any did. */
+static const fm_case_row *best_known(const fm_group *group)
+{
+    for (size_t i = 0; i < group->count; i++)
+        if (group->cases[i]->device_name[0] != '\0' && !isnan(group->cases[i]->n))
+            return group->cases[i];
+    return group->cases[0];
+}
+
 static void describe(fm_group *group)
 {
-    const fm_case_row *one = group->cases[0];
-    snprintf(group->title, sizeof group->title, "%s%.60s, %.50s, %.30s",
-             is_stand_in(one->scene) ? "stand-in for " : "", one->scene,
-             one->device_name[0] != '\0' ? one->device_name : one->device, one->feed);
+    const fm_case_row *one = best_known(group);
+    snprintf(group->title, sizeof group->title, "%s%.60s, %.20s%s%.50s, %.30s",
+             group_is_stand_in(one->scene) ? "stand-in for " : "", one->scene, one->device,
+             one->device_name[0] != '\0' ? ": " : "", one->device_name, one->feed);
     snprintf(group->workload, sizeof group->workload, "%.0f x %.0f pixels", one->width_px,
              one->height_px);
     size_t room = sizeof group->workload;

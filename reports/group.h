@@ -8,7 +8,7 @@ typedef struct fm_group {
     const fm_case_row **cases; /* by family, method, options, k; controls last; owned */
     size_t count;
     char name[128];     /* of the group in file names: "layers-vulkan-raster", unique in a list */
-    char title[160];    /* "layers, llvmpipe, raster" */
+    char title[192];    /* "layers, vulkan: llvmpipe, raster" */
     char workload[200]; /* "854 x 480 pixels, n = 128, pixel density 0.25, ..." */
 } fm_group;
 
@@ -26,6 +26,8 @@ void groups_free(fm_groups *groups);
 
 /* "K+B-Array", with the options that tell two series of one method apart. */
 void group_series_title(char title[96], const fm_case_row *result);
+/* Procedural scenes with the printed properties of models that the papers do not share. */
+bool group_is_stand_in(const char *scene);
 /* Same method, version and options: points of one line. */
 bool group_same_series(const fm_case_row *a, const fm_case_row *b);
 /* Whether k matters: the method has several k, or the group has only one. */

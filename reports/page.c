@@ -1,8 +1,10 @@
 #include "page.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
+#include "group.h"
 #include "html.h"
 #include "look.h"
 
@@ -50,8 +52,12 @@ void page_begin(fm_text *page, const fm_result_files *results)
              results->count - count_status(results, "ok") - count_status(results, "not_supported") -
                  count_status(results, "wrong_image"));
     add_fact(page, "what", provenance_fact(manifest, "command"));
-    for (size_t i = 0; i < manifest->device_count; i++)
-        add_fact(page, "where", manifest->devices[i].name);
+    for (size_t i = 0; i < manifest->device_count; i++) {
+        char where[256];
+        snprintf(where, sizeof where, "%.60s: %.180s", manifest->devices[i].selector,
+                 manifest->devices[i].name);
+        add_fact(page, "where", where);
+    }
     add_fact(page, "when", provenance_fact(manifest, "started"));
     add_fact(page, "commit", provenance_fact(manifest, "git_commit"));
     text_add(page, "</dl>\n<nav><a href=\"#speed\">Speed against error</a>"
@@ -80,7 +86,8 @@ void page_add_guide(fm_text *page)
         "<b>missing, extra, misordered</b> count fragments, not pixels. A method that claims to be "
         "exact and is not has the status wrong_image; for methods published as approximate or racy "
         "a wrong picture is a result.",
-        "<b>The Pareto frontier</b> joins the cases that no other beats in both time and error. "
+        "<b>The Pareto frontier</b> (&#9679; in tables) joins the cases that no other beats in "
+        "both time and error. "
         "Controls do not compete for it.",
     };
     text_add(page, "<h2 id=guide>How to read this</h2>\n<ul>\n");
@@ -140,9 +147,18 @@ static void add_note(fm_text *page, const fm_result_files *results,
     text_free(&titles);
 }
 
+static bool any_stand_in(const fm_result_files *results)
+{
+    for (size_t i = 0; i < results->count; i++)
+        if (group_is_stand_in(results->cases[i].scene))
+            return true;
+    return false;
+}
+
 void page_add_notes(fm_text *page, const fm_result_files *results)
 {
     text_add(page, "<h2 id=notes>Notes on these results</h2>\n");
+    const size_t empty = page->length;
     add_note(page, results, hides_races,
              "On Mesa's software rasterisers the fragments of one pixel never run at the same time "
              "on the raster feed, so that races cannot show here: use <code>--feed "
@@ -152,8 +168,11 @@ void page_add_notes(fm_text *page, const fm_result_files *results)
     add_note(page, results, is_single_launch,
              "One launch only: intervals do not show how launches differ.");
     add_note(page, results, is_unstable, "Launches drew different pictures of the same case.");
-    text_add(page, "<p>Scenes called a stand-in are generated with the properties that the paper "
-                   "prints; they are not the paper's models.</p>\n");
+    if (any_stand_in(results))
+        text_add(page, "<p>Scenes called a stand-in are generated with the properties that the "
+                       "paper prints; they are not the paper's models.</p>\n");
+    if (page->length == empty)
+        text_add(page, "<p>Nothing to note.</p>\n");
 }
 
 static void add_devices(fm_text *page, const fm_provenance *manifest)
