@@ -111,7 +111,9 @@ static int make_report(arguments *given, fm_error *err)
                             .figure_count = given->figure_count };
     if (report_write(&outcome, &desc, err) != FM_OK)
         goto out;
-    fprintf(stderr, "%zu charts, %zu pictures\n", outcome.chart_count, outcome.picture_count);
+    fprintf(stderr, "%zu chart%s, %zu picture%s\n", outcome.chart_count,
+            outcome.chart_count == 1 ? "" : "s", outcome.picture_count,
+            outcome.picture_count == 1 ? "" : "s");
     printf("%s/report.html\n", given->directory);
     code = EXIT_DONE;
 out:

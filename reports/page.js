@@ -23,7 +23,7 @@ function sort(table, heading) {
 function addFilter(table) {
   const input = document.createElement("input");
   input.className = "filter";
-  input.placeholder = "filter rows, e.g. k-buffer ok";
+  input.placeholder = "filter rows, e.g. K+B ok";
   input.setAttribute("aria-label", "filter rows");
   input.addEventListener("input", () => {
     const words = input.value.toLowerCase().split(/\s+/);

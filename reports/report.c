@@ -213,7 +213,9 @@ static fm_status add_heat_scale(writer *to)
     if (status != FM_OK)
         return status;
     snprintf(path, sizeof path, "%s/images/heat-scale.png", to->results->directory);
-    text_add(&to->page, "<p>Pictures are shown over white. The heat map is the largest difference "
+    text_add(&to->page, "<p>Pictures are shown over white. The truth beside a picture holds the "
+                        "fragments that its method is to keep: the k nearest, or all. The heat map "
+                        "is the largest difference "
                         "of a pixel over its four channels, on one scale for all cases; black is "
                         "up to 1e-4.</p>\n<div class=scale>");
     status = html_add_png(&to->page, path, "colour bar from 1e-4 to 1", to->err);

@@ -151,17 +151,17 @@ static bool is_free(const fm_chart *chart, const taken_boxes *taken, const box *
     return is_inside;
 }
 
-/* "k=8" right of, left of, above or below a marker, at the first place that is free; else nowhere.
- */
+/* "k=8" beside a marker, at the first place that is free; else nowhere. Above right comes first:
+ * the frontier leaves a marker to the right, intervals leave it up and down. */
 static void add_label(fm_chart *chart, taken_boxes *taken, const box *marker, const char *text)
 {
     double width = chart_text_width_px(text, LABEL_PX), gap = 3;
     double x = (marker->x0 + marker->x1) / 2, y = (marker->y0 + marker->y1) / 2;
     const double places[][2] = {
+        { marker->x1 + gap, marker->y1 - 2 },
         { marker->x1 + gap, y - 4 },
         { marker->x0 - gap - width, y - 4 },
         { x - width / 2, marker->y1 + gap },
-        { marker->x1 + gap, marker->y1 - 1 },
         { x - width / 2, marker->y0 - gap - LABEL_PX + 1 },
     };
     for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
