@@ -1,5 +1,6 @@
 #include "instance_internal.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -73,9 +74,11 @@ static void name_slots(fm_instance *instance)
     uint32_t line = STAGE_SLOT_COUNT;
     for (size_t i = 0; i < instance->resource_count; i++) {
         const fm_resource *resource = &instance->method->resources[i];
+        snprintf(instance->previous_names[i], sizeof instance->previous_names[i], "%s_previous",
+                 resource->name);
         for (int copy = 0; copy < (resource->ping_pong ? 2 : 1); copy++) {
             fm_slot *slot = &instance->resources[i][copy];
-            slot->name = resource->name;
+            slot->name = copy == 0 ? resource->name : instance->previous_names[i];
             slot->type = shader_element_type(resource->element);
             slot->format = resource->kind == FM_RESOURCE_IMAGE ? resource->format : FM_FORMAT_NONE;
             slot->in_table = resource->kind == FM_RESOURCE_BUFFER;
@@ -120,7 +123,7 @@ static void fill_workload(fm_instance *instance, const fm_instance_desc *desc)
 fm_status instance_create(fm_instance **out, const fm_instance_desc *desc, fm_error *err)
 {
     const fm_buffer_desc table = { .name = "table",
-                                   .bytes = FM_MAX_BINDINGS * sizeof(fm_table_line),
+                                   .bytes = SHADER_TABLE_LINES * sizeof(fm_table_line),
                                    .owner = FM_OWNER_RUNNER,
                                    .is_uniform = true };
     fm_instance *instance = calloc(1, sizeof *instance);

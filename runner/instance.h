@@ -30,7 +30,7 @@ typedef struct fm_band {
 typedef struct fm_frame_result {
     uint64_t pass_ns[FM_MAX_PASSES]; /* in the descriptor's order, all iterations together */
     uint64_t canary_ns;              /* an empty interval at the frame's start */
-    uint64_t wall_ns;                /* host time with read-backs */
+    uint64_t wall_ns;                /* host: with read-backs, allocation and what was done again */
     uint64_t lost, culled, locked;   /* fragments; the last two in the checked build only */
     uint32_t redos;                  /* frames done again because something had to grow */
 } fm_frame_result;

@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 enum {
     CANARY_TIMER = FM_MAX_TIMERS - 1,
@@ -25,6 +26,13 @@ typedef struct frame_run {
     fm_error *err;
 } frame_run;
 
+static uint64_t now_ns(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (uint64_t)now.tv_sec * 1000000000u + (uint64_t)now.tv_nsec;
+}
+
 static fm_status flush(frame_run *frame)
 {
     fm_frame_times times;
@@ -41,7 +49,6 @@ static fm_status flush(frame_run *frame)
         if (strcmp(frame->instance->method->passes[i].name, "resolve") == 0)
             frame->result->pass_ns[i] += times.timer_ns[COMBINE_TIMER];
     frame->result->canary_ns += times.timer_ns[CANARY_TIMER];
-    frame->result->wall_ns += times.wall_ns;
     memcpy(frame->query, times.query, sizeof frame->query);
     return FM_OK;
 }
@@ -72,191 +79,18 @@ static void set_params(frame_run *frame, uint32_t iteration, uint32_t total)
 
 /* ---- one pass ---- */
 
-/* The copy of a resource that this iteration means. */
-static fm_slot *current_slot(fm_instance *instance, const built_pass *built, size_t use)
-{
-    const resource_ref ref = built->refs[use];
-    if (ref.index < 0 || !instance->method->resources[ref.index].ping_pong)
-        return built->uses[use].slot;
-    return &instance->resources[ref.index][instance->parity ^ (ref.is_previous ? 1u : 0u)];
-}
-
-static uint32_t collect_binds(fm_bind binds[FM_MAX_BINDINGS], fm_instance *instance,
-                              const built_pass *built)
-{
-    uint32_t count = 0;
-    binds[count++] = (fm_bind){ .binding = SHADER_BINDING_PARAMS,
-                                .kind = FM_BINDING_UNIFORM,
-                                .buffer = instance->desc.stage->params,
-                                .access = FM_ACCESS_READ };
-    binds[count++] = (fm_bind){ .binding = SHADER_BINDING_TABLE,
-                                .kind = FM_BINDING_UNIFORM,
-                                .buffer = instance->table,
-                                .access = FM_ACCESS_READ };
-    for (size_t i = 0; i < built->use_count; i++) {
-        const fm_use *use = &built->uses[i];
-        fm_slot *slot = current_slot(instance, built, i);
-        const bool writes = (use->access & FM_ACCESS_WRITE) != 0;
-        fm_bind *bind = &binds[count++];
-        *bind = (fm_bind){ .binding = use->binding,
-                           .buffer = slot->buffer,
-                           .image = slot->image,
-                           .access = use->access };
-        if (slot->image != NULL)
-            bind->kind = writes ? FM_BINDING_STORAGE_IMAGE : FM_BINDING_SAMPLED;
-        else
-            bind->kind = slot->by_address ? FM_BINDING_ADDRESS : FM_BINDING_STORAGE;
-    }
-    return count;
-}
-
-static fm_image_resource *current_image(fm_instance *instance, const char *name,
-                                        const fm_resource **resource)
-{
-    bool is_previous;
-    const int index = resource_index(instance->method, name, &is_previous);
-    const uint32_t parity = instance->method->resources[index].ping_pong ? instance->parity : 0;
-    *resource = &instance->method->resources[index];
-    return instance->resources[index][parity ^ (is_previous ? 1u : 0u)].image;
-}
-
-static void fill_targets(fm_draw *draw, fm_instance *instance, const fm_pass *pass)
-{
-    const fm_resource *resource;
-    for (uint32_t i = 0; i < FM_MAX_TARGETS && pass->targets[i].resource != NULL; i++) {
-        draw->targets[i] = current_image(instance, pass->targets[i].resource, &resource);
-        draw->target_loads[i] = pass->targets[i].load;
-        memcpy(draw->target_clears[i], resource->clear_colour, sizeof resource->clear_colour);
-        draw->target_count = i + 1;
-    }
-    if (pass->state.depth_stencil == NULL)
-        return;
-    draw->depth_stencil = current_image(instance, pass->state.depth_stencil, &resource);
-    draw->depth_stencil_load = pass->state.depth_stencil_load;
-    draw->clear_depth = resource->clear_depth;
-    draw->clear_stencil = resource->clear_stencil;
-}
-
-static const fm_pipeline *pipeline_at(const built_pass *built, uint32_t iteration)
-{
-    return built
-        ->pipelines[iteration < built->pipeline_count ? iteration : built->pipeline_count - 1];
-}
-
-static fm_status draw_pass(frame_run *frame, size_t index, uint32_t iteration)
-{
-    fm_instance *instance = frame->instance;
-    const fm_pass *pass = &instance->method->passes[index];
-    const built_pass *built = &instance->passes[index];
-    fm_bind binds[FM_MAX_BINDINGS];
-    fm_draw draw = { .pipeline = pipeline_at(built, iteration),
-                     .binds = binds,
-                     .bind_count = collect_binds(binds, instance, built),
-                     .width_px = instance->workload.width_px,
-                     .height_px = instance->workload.height_px,
-                     .vertex_count = 3,
-                     .instance_count = 1,
-                     .query = -1 };
-    fill_targets(&draw, instance, pass);
-    if (pass->kind == FM_PASS_SCENE) {
-        stage_draw(&draw, instance->desc.stage, pass->flat_tessellation);
-        for (size_t i = 0; i < instance->total_count; i++)
-            if (instance->method->totals[i].resource == NULL &&
-                strcmp(instance->method->totals[i].pass, pass->name) == 0)
-                draw.query = (int)index;
-    }
-    return instance->device->ops->draw(instance->device, &draw, frame->err);
-}
-
-static uint64_t invocations(const frame_run *frame, const fm_pass *pass)
-{
-    const fm_instance *instance = frame->instance;
-    const fm_workload *workload = &instance->workload;
-    const int total = total_index(instance->method, pass->count_total);
-    switch (pass->kind) {
-    case FM_PASS_SCENE:
-        return instance->desc.stage->invocations;
-    case FM_PASS_PIXELS:
-        return (uint64_t)workload->width_px * workload->height_px;
-    case FM_PASS_TILES:
-        return (uint64_t)((workload->width_px + FM_TILE_PX - 1) / FM_TILE_PX) *
-               ((workload->height_px + FM_TILE_PX - 1) / FM_TILE_PX);
-    case FM_PASS_TRIANGLES:
-        return workload->triangles;
-    case FM_PASS_TOTAL:
-        return total >= 0 ? instance->totals[total] : 0;
-    case FM_PASS_INDIRECT:
-    case FM_PASS_CLEAR:
-    case FM_PASS_HOST:
-    case FM_PASS_KIND_COUNT:
-        break;
-    }
-    return 0;
-}
-
-static fm_status dispatch_pass(frame_run *frame, const fm_pass *pass, const built_pass *built,
-                               uint64_t count)
-{
-    fm_instance *instance = frame->instance;
-    fm_bind binds[FM_MAX_BINDINGS];
-    fm_dispatch dispatch = { .pipeline = pipeline_at(built, 0),
-                             .binds = binds,
-                             .bind_count = collect_binds(binds, instance, built) };
-    if (pass->kind == FM_PASS_INDIRECT) {
-        bool is_previous;
-        const int index = resource_index(instance->method, pass->indirect, &is_previous);
-        dispatch.indirect = instance->resources[index][0].buffer;
-    } else {
-        fm_status status =
-            stage_groups(dispatch.groups, &instance->device->caps, count, frame->err);
-        if (status != FM_OK || count == 0)
-            return status;
-    }
-    return instance->device->ops->dispatch(instance->device, &dispatch, frame->err);
-}
-
-static void clear_pass(frame_run *frame, const fm_pass *pass)
-{
-    fm_instance *instance = frame->instance;
-    fm_device *device = instance->device;
-    for (int i = 0; i < FM_MAX_ACCESSES && pass->writes[i] != NULL; i++) {
-        bool is_previous;
-        const int index = resource_index(instance->method, pass->writes[i], &is_previous);
-        const fm_resource *resource = &instance->method->resources[index];
-        const uint32_t parity = resource->ping_pong ? instance->parity : 0;
-        const fm_slot *slot = &instance->resources[index][parity ^ (is_previous ? 1u : 0u)];
-        if (slot->image != NULL)
-            device->ops->image_clear(device, slot->image, resource->clear_colour,
-                                     resource->clear_depth, resource->clear_stencil);
-        else if (slot->buffer != NULL)
-            device->ops->fill(device, slot->buffer, pass->clear_word);
-    }
-}
-
-static bool is_empty_scene(const fm_instance *instance, const fm_pass *pass)
-{
-    return pass->kind == FM_PASS_SCENE && instance->desc.stage->scene->triangles == 0;
-}
-
 static fm_status run_pass(frame_run *frame, size_t index, uint32_t iteration)
 {
     fm_instance *instance = frame->instance;
     const fm_pass *pass = &instance->method->passes[index];
     const bool is_total = pass->kind == FM_PASS_TOTAL;
-    const uint64_t count = invocations(frame, pass);
     fm_status status = record(frame);
     if (status != FM_OK || pass->kind == FM_PASS_HOST)
         return status;
-    set_params(frame, iteration, is_total ? (uint32_t)count : SCENE_PARAM_NONE);
+    set_params(frame, iteration,
+               is_total ? (uint32_t)pass_invocations(instance, pass) : SCENE_PARAM_NONE);
     instance->device->ops->timer_begin(instance->device, (uint32_t)index);
-    if (pass->kind == FM_PASS_CLEAR)
-        clear_pass(frame, pass);
-    else if (is_empty_scene(instance, pass) && pass->targets[0].resource == NULL)
-        status = FM_OK;
-    else if (instance->passes[index].is_drawn)
-        status = draw_pass(frame, index, iteration);
-    else
-        status = dispatch_pass(frame, pass, &instance->passes[index], count);
+    status = pass_issue(instance, index, iteration, frame->err);
     instance->device->ops->timer_end(instance->device, (uint32_t)index);
     return status;
 }
@@ -288,7 +122,7 @@ static fm_status read_total(frame_run *frame, size_t index)
         return FM_OK;
     }
     const int resource = resource_index(instance->method, total->resource, &is_previous);
-    const fm_slot *slot = &instance->resources[resource][0];
+    const fm_slot *slot = current_copy(instance, resource);
     uint32_t word = 0;
     if (total->sum)
         return sum_elements(&instance->totals[index], frame, slot);
@@ -342,31 +176,66 @@ static fm_status after_pass(frame_run *frame, size_t index, fm_next *next)
             status = take_total(frame, i);
     }
     *next = frame->redo ? FM_REDO : FM_NEXT;
-    if (status == FM_OK && pass->kind == FM_PASS_HOST && instance->method->after != NULL) {
-        status = flush(frame);
+    if (status != FM_OK || frame->redo || pass->kind != FM_PASS_HOST ||
+        instance->method->after == NULL)
+        return status;
+    status = flush(frame);
+    if (status == FM_OK)
         *next = instance->method->after(&instance->workload, pass->name);
-    }
     return status;
 }
 
 /* ---- loops ---- */
 
+/* The widest loop that starts with this pass and, if it runs inside a loop that starts there too,
+ * is narrower than that one. */
 static const fm_loop *loop_from(const fm_instance *instance, size_t first, const fm_loop *inside)
 {
-    for (int i = 0; i < FM_MAX_LOOPS && instance->method->loops[i].first != NULL; i++) {
-        const fm_loop *loop = &instance->method->loops[i];
-        if (loop != inside && pass_index(instance->method, loop->first) == (int)first)
-            return loop;
+    const fm_method_desc *method = instance->method;
+    const bool is_at_start = inside != NULL && pass_index(method, inside->first) == (int)first;
+    const int end = is_at_start ? pass_index(method, inside->last) : FM_MAX_PASSES;
+    const fm_loop *widest = NULL;
+    int widest_last = -1;
+    for (int i = 0; i < FM_MAX_LOOPS && method->loops[i].first != NULL; i++) {
+        const int last = pass_index(method, method->loops[i].last);
+        if (pass_index(method, method->loops[i].first) == (int)first && last < end &&
+            last > widest_last) {
+            widest = &method->loops[i];
+            widest_last = last;
+        }
     }
-    return NULL;
+    return widest;
 }
 
-static uint32_t loop_most(const fm_instance *instance, const fm_loop *loop)
+/* What ends a loop. */
+typedef struct loop_end {
+    bool is_counted;     /* else until `total` is zero; else the hook says */
+    uint32_t count, max; /* iterations */
+    int total;
+} loop_end;
+
+static loop_end end_of(const fm_instance *instance, const fm_loop *loop)
 {
-    const uint32_t count = loop->count + loop->count_per_k * instance->workload.k +
-                           loop->count_per_n * instance->workload.n;
-    const uint32_t max = loop->max > 0 ? loop->max : LOOP_MAX_DEFAULT;
-    return loop->until_zero == NULL && count < max ? count : max;
+    return (loop_end){
+        .is_counted = loop->until_zero == NULL &&
+                      (loop->count > 0 || loop->count_per_k > 0 || loop->count_per_n > 0),
+        .count = loop->count + loop->count_per_k * instance->workload.k +
+                 loop->count_per_n * instance->workload.n,
+        .max = loop->max > 0 ? loop->max : LOOP_MAX_DEFAULT,
+        .total = total_index(instance->method, loop->until_zero),
+    };
+}
+
+/* Does iteration i run? next is what the one before it answered. */
+static bool goes_on(const fm_instance *instance, const loop_end *end, uint32_t i, fm_next next)
+{
+    if (i >= end->max || next == FM_REDO)
+        return false;
+    if (next == FM_REPEAT)
+        return true;
+    if (end->is_counted)
+        return i < end->count;
+    return i == 0 || (end->total >= 0 && instance->totals[end->total] != 0);
 }
 
 static fm_status swap_copies(frame_run *frame)
@@ -389,17 +258,16 @@ static fm_status run_loop(frame_run *frame, const fm_loop *loop, fm_next *next)
     fm_instance *instance = frame->instance;
     const size_t first = (size_t)pass_index(instance->method, loop->first);
     const size_t last = (size_t)pass_index(instance->method, loop->last);
-    const int until = total_index(instance->method, loop->until_zero);
-    const uint32_t most = loop_most(instance, loop);
+    const loop_end end = end_of(instance, loop);
     fm_status status = FM_OK;
     *next = FM_NEXT;
-    for (uint32_t i = 0; i < most && status == FM_OK && *next != FM_REDO; i++) {
+    for (uint32_t i = 0; status == FM_OK && goes_on(instance, &end, i, *next); i++) {
         status = run_range(frame, first, last, i, loop, next);
         if (status == FM_OK)
             status = swap_copies(frame);
-        if (until >= 0 && instance->totals[until] == 0 && *next != FM_REPEAT)
-            break;
     }
+    if (*next == FM_REPEAT) /* heard: it is not for the loop around this one */
+        *next = FM_NEXT;
     return status;
 }
 
@@ -436,6 +304,9 @@ static fm_status start(frame_run *frame)
         resources_destroy(instance); /* as published: each frame asks for its memory anew */
         status = resources_create_fixed(instance, frame->err);
     }
+    /* The redone frame is the timed one; what went before shows in wall_ns. */
+    memset(frame->result->pass_ns, 0, sizeof frame->result->pass_ns);
+    frame->result->canary_ns = 0;
     frame->redo = false;
     frame->params_are_set = false;
     instance->parity = 0;
@@ -461,7 +332,8 @@ static fm_status combine(frame_run *frame)
     if (status != FM_OK)
         return status;
     instance->device->ops->timer_begin(instance->device, COMBINE_TIMER);
-    status = dispatch_pass(frame, &pass, &instance->combine, invocations(frame, &pass));
+    status = pass_dispatch(instance, &pass, &instance->combine, pass_invocations(instance, &pass),
+                           frame->err);
     instance->device->ops->timer_end(instance->device, COMBINE_TIMER);
     return status;
 }
@@ -504,6 +376,7 @@ fm_status instance_frame(fm_frame_result *result, fm_instance *instance, const f
     *result = (fm_frame_result){ 0 };
     if (band != NULL)
         frame.band = *band;
+    const uint64_t started_ns = now_ns();
     fm_status status = run_once(&frame);
     while (status == FM_OK && frame.redo) {
         if (++result->redos > REDO_MAX)
@@ -511,6 +384,7 @@ fm_status instance_frame(fm_frame_result *result, fm_instance *instance, const f
                            instance->method->id, REDO_MAX);
         status = run_once(&frame);
     }
+    result->wall_ns = now_ns() - started_ns;
     return status == FM_OK ? read_counters(&frame) : status;
 }
 

@@ -1,11 +1,13 @@
-/* Shared by instance.c (set-up), instance_passes.c (pipelines), instance_resources.c (buffers) and
- * instance_frame.c (frames); nobody else. */
+/* Shared by instance.c (set-up), instance_passes.c (pipelines), instance_resources.c (buffers),
+ * instance_frame.c (frames) and instance_draw.c (one pass of one); nobody else. */
 #ifndef FM_INSTANCE_INTERNAL_H
 #define FM_INSTANCE_INTERNAL_H
 
 #include "instance.h"
 
 enum { INSTANCE_USES_MAX = FM_MAX_BINDINGS - SHADER_BINDING_FIRST };
+_Static_assert(STAGE_SLOT_COUNT + 2 * (int)FM_MAX_RESOURCES + 1 <= (int)SHADER_TABLE_LINES,
+               "a line of the table for each slot, both copies of each resource, and the locks");
 
 /* A resource in a pass: which one, and whether the copy of the last iteration. */
 typedef struct resource_ref {
@@ -22,7 +24,8 @@ typedef struct built_pass {
     resource_ref refs[INSTANCE_USES_MAX]; /* index -1: not the method's */
     fm_pipeline **pipelines;              /* one, or one an iteration where state depends on it */
     uint32_t pipeline_count;
-    bool is_drawn; /* a draw; else a dispatch */
+    bool is_drawn;    /* a draw; else a dispatch */
+    bool is_overfull; /* uses more than there is room for */
 } built_pass;
 
 struct fm_instance {
@@ -33,8 +36,9 @@ struct fm_instance {
     uint64_t totals[FM_MAX_TOTALS];
     bool total_is_known[FM_MAX_TOTALS];
     fm_slot resources[FM_MAX_RESOURCES][2]; /* the second copy: ping-pong only */
-    uint64_t grown[FM_MAX_RESOURCES];       /* elements added by overflows */
-    uint32_t parity;                        /* which copy is written */
+    char previous_names[FM_MAX_RESOURCES][80];
+    uint64_t grown[FM_MAX_RESOURCES]; /* elements added by overflows */
+    uint32_t parity;                  /* which copy is written */
     fm_slot locks;
     fm_buffer *table; /* addresses and lengths */
     built_pass passes[FM_MAX_PASSES];
@@ -58,6 +62,19 @@ fm_status table_upload(fm_instance *instance, fm_error *err);
 int resource_index(const fm_method_desc *method, const char *name, bool *is_previous);
 int total_index(const fm_method_desc *method, const char *name);
 int pass_index(const fm_method_desc *method, const char *name);
+
+/* The copy of a resource that the running iteration writes. */
+static inline fm_slot *current_copy(fm_instance *instance, int index)
+{
+    const bool is_double = instance->method->resources[index].ping_pong;
+    return &instance->resources[index][is_double ? instance->parity : 0];
+}
+
+/* instance_draw.c. The frame is being recorded. */
+uint64_t pass_invocations(const fm_instance *instance, const fm_pass *pass);
+fm_status pass_issue(fm_instance *instance, size_t index, uint32_t iteration, fm_error *err);
+fm_status pass_dispatch(fm_instance *instance, const fm_pass *pass, const built_pass *built,
+                        uint64_t count, fm_error *err);
 
 /* instance_passes.c */
 fm_status passes_create(fm_instance *instance, fm_error *err);

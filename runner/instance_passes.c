@@ -53,6 +53,10 @@ static void add_use(built_pass *built, fm_slot *slot, uint32_t access, bool is_c
             return;
         }
     }
+    if (built->use_count == INSTANCE_USES_MAX) {
+        built->is_overfull = true;
+        return;
+    }
     built->refs[built->use_count] = ref;
     built->uses[built->use_count++] =
         (fm_use){ .slot = slot, .access = access, .is_coherent = is_coherent };
@@ -418,6 +422,10 @@ static fm_status build_pass(built_pass *built, fm_instance *instance, const fm_p
     if (pass->kind == FM_PASS_HOST || pass->kind == FM_PASS_CLEAR)
         return FM_OK;
     collect_uses(built, instance, pass);
+    if (built->is_overfull)
+        return fm_fail(err, FM_UNSUPPORTED,
+                       "%s: pass '%s': more than %d resources, the feed's own included",
+                       instance->method->id, pass->name, INSTANCE_USES_MAX);
     return create_pipelines(built, instance, pass, err);
 }
 

@@ -201,29 +201,29 @@ void resources_destroy(fm_instance *instance)
     slot_destroy(&instance->locks, instance->device);
 }
 
-static void table_line(fm_table_line *lines, const fm_instance *instance, const fm_slot *slot)
+static void table_line(fm_table_line *line, const fm_instance *instance, const fm_slot *slot)
 {
     if (slot->buffer == NULL)
         return;
-    lines[slot->table_index].length =
-        slot->length < UINT32_MAX ? (uint32_t)slot->length : UINT32_MAX;
+    line->length = slot->length < UINT32_MAX ? (uint32_t)slot->length : UINT32_MAX;
     if (slot->by_address)
-        lines[slot->table_index].address = instance->device->ops->buffer_address(slot->buffer);
+        line->address = instance->device->ops->buffer_address(slot->buffer);
 }
 
 fm_status table_upload(fm_instance *instance, fm_error *err)
 {
-    fm_table_line lines[FM_MAX_BINDINGS] = { 0 };
+    fm_table_line lines[SHADER_TABLE_LINES] = { 0 };
+    const fm_slot *shared = instance->desc.stage->slots;
     for (int i = 0; i < STAGE_SLOT_COUNT; i++)
-        table_line(lines, instance, &instance->desc.stage->slots[i]);
+        table_line(&lines[shared[i].table_index], instance, &shared[i]);
     for (size_t i = 0; i < instance->resource_count; i++) {
         const fm_slot *copies = instance->resources[i];
-        const bool is_double = copies[1].buffer != NULL;
-        table_line(lines, instance, &copies[is_double ? instance->parity : 0]);
-        if (is_double) /* the line after the resource's own: what the last iteration wrote */
-            table_line(lines, instance, &copies[1 - instance->parity]);
+        const uint32_t written = copies[1].buffer != NULL ? instance->parity : 0;
+        table_line(&lines[copies[0].table_index], instance, &copies[written]);
+        if (copies[1].buffer != NULL) /* what the last iteration wrote */
+            table_line(&lines[copies[1].table_index], instance, &copies[1 - written]);
     }
-    table_line(lines, instance, &instance->locks);
+    table_line(&lines[instance->locks.table_index], instance, &instance->locks);
     return instance->device->ops->buffer_write(instance->device, instance->table, 0, lines,
                                                sizeof lines, err);
 }

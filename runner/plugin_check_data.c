@@ -200,7 +200,7 @@ static fm_status check_image(const fm_resource *r, fm_error *err)
 static fm_status check_resource_name(const fm_check *check, const char *name, fm_error *err)
 {
     const size_t length = strlen(name);
-    if (!check_is_word(name, "_"))
+    if (!check_is_word(name, "_") || length >= DEFINE_MAX_BYTES)
         return fm_fail(err, FM_INVALID, "needs lower-case letters, digits and '_'");
     if (check_is_reserved(name) || strcmp(name, "store") == 0 || strcmp(name, "wanted") == 0)
         return fm_fail(err, FM_INVALID, "a word that GLSL or the runner reserves");

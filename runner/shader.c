@@ -122,7 +122,7 @@ static void declare_storage_image(fm_text *text, const fm_use *use)
 static void declare_table(fm_text *text, const fm_use *uses, size_t count, const char *part)
 {
     fm_text lines = { 0 };
-    for (uint32_t line = 0; line < FM_MAX_BINDINGS; line++) {
+    for (uint32_t line = 0; line < SHADER_TABLE_LINES; line++) {
         for (size_t i = 0; i < count; i++) {
             const fm_slot *slot = uses[i].slot;
             if (slot->format != FM_FORMAT_NONE || !slot->in_table || slot->table_index != line)
@@ -174,10 +174,11 @@ static void find_file(char path[FM_PATH_MAX_BYTES], const fm_shader_folders *fol
         snprintf(path, FM_PATH_MAX_BYTES, "%s/%s", folders->method, file);
 }
 
-/* The file named in a line `#include "file"`, or false. */
+/* The file named in a line `#include "file"`, or false. Blanks of sscanf would take empty lines and
+ * then find the next line's include. */
 static bool include_of(char file[128], const char *line)
 {
-    return sscanf(line, " #include \"%127[^\"]\"", file) == 1;
+    return sscanf(line + strspn(line, " \t"), "#include%*[ \t] \"%127[^\"]\"", file) == 1;
 }
 
 static fm_status add_file(fm_text *text, const fm_shader_folders *folders, const char *file,

@@ -34,6 +34,7 @@ enum {
     SHADER_BINDING_TABLE = 1,  /* uniform: address and length of each resource */
     SHADER_BINDING_FIRST = 2,
     SHADER_TABLE_STRIDE = 16,
+    SHADER_TABLE_LINES = 64, /* at most */
 };
 
 /* What std140 block fm_params holds. */

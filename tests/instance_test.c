@@ -1,0 +1,174 @@
+/* Loops, ping-pong copies and includes, as descriptors use them, on shaders written by the test. */
+#include <stdio.h>
+#include <unistd.h>
+
+#include "instance.h"
+#include "scene_kit.h"
+
+#define HEAD .id = "looped", .traits = FM_TRAIT_FLOOR
+
+/* The empty line before the include is part of the test. */
+static const char add_one[] =
+    "\n#include \"result.glsl\"\nvoid one(uvec2 pixel) { add(pixel, 1u); }\n";
+static const char add_hundred[] =
+    "#include \"result.glsl\"\nvoid hundred(uvec2 pixel) { add(pixel, 100u); }\n";
+static const char result_file[] = "void add(uvec2 pixel, uint term)\n{\n"
+                                  "    if (pixel == uvec2(0u))\n        result[0] += term;\n}\n";
+static const char step_file[] =
+    "void step_on(uvec2 pixel)\n{\n    uint i = fm_pixel_index(pixel);\n"
+    "    value[i] = fm_iteration == 0u ? 1u : value_previous[i] + 1u;\n}\n";
+static const char take_file[] = "void take(uvec2 pixel)\n{\n    if (pixel == uvec2(0u))\n"
+                                "        result[0] = value_previous[0];\n}\n";
+
+static const struct {
+    const char *name, *text;
+} files[] = { { "one.glsl", add_one },
+              { "hundred.glsl", add_hundred },
+              { "result.glsl", result_file },
+              { "step.glsl", step_file },
+              { "take.glsl", take_file } };
+enum { FILE_COUNT = sizeof files / sizeof files[0] };
+
+static void write_files(char folder[32])
+{
+    char path[64];
+    assert_non_null(mkdtemp(folder));
+    for (size_t i = 0; i < FILE_COUNT; i++) {
+        snprintf(path, sizeof path, "%s/%s", folder, files[i].name);
+        assert_int_equal(text_write_file(path, files[i].text, strlen(files[i].text), NULL), FM_OK);
+    }
+}
+
+static void remove_files(const char *folder)
+{
+    char path[64];
+    for (size_t i = 0; i < FILE_COUNT; i++) {
+        snprintf(path, sizeof path, "%s/%s", folder, files[i].name);
+        unlink(path);
+    }
+    rmdir(folder);
+}
+
+/* Runs one frame of the method on an empty scene and returns result[0]. */
+static uint32_t run_frame(fm_device *device, const fm_method_desc *method, fm_buffers buffers)
+{
+    char folder[32] = "/tmp/fm-instance-XXXXXX";
+    uint32_t word = 0;
+    fm_error err = { 0 };
+    scene_kit kit;
+    kit_scene scene;
+    fm_stage *stage = NULL;
+    fm_instance *instance = NULL;
+    fm_frame_result result;
+    write_files(folder);
+    kit_open(&kit, device);
+    kit_scene_open(&scene, &kit, "width_px=3 height_px=2 n=0");
+    fm_settings settings = scene.scene->settings;
+    settings.buffers = buffers;
+    const fm_instance_desc desc = { .method = method,
+                                    .folders = { folder, kit.plugins.common_folder },
+                                    .settings = &settings };
+    fm_status status = stage_create(&stage, device, scene.scene, scene.truth, FM_FEED_RASTER, &err);
+    fm_instance_desc full = desc;
+    full.stage = stage;
+    if (status == FM_OK)
+        status = instance_create(&instance, &full, &err);
+    if (status == FM_OK)
+        status = instance_frame(&result, instance, NULL, &err);
+    if (status == FM_OK)
+        status = device->ops->buffer_read(device, instance_slot(instance, "result")->buffer, 0,
+                                          &word, sizeof word, &err);
+    instance_destroy(instance);
+    stage_destroy(stage);
+    kit_scene_close(&scene);
+    kit_close(&kit);
+    remove_files(folder);
+    if (status != FM_OK)
+        fail_msg("%s", err.message);
+    return word;
+}
+
+static fm_next until_three(const fm_workload *workload, const char *pass)
+{
+    assert_string_equal(pass, "ask");
+    return workload->totals[0] < 3 ? FM_REPEAT : FM_NEXT;
+}
+
+static void loop_without_count_runs_until_the_hook_lets_go(void **state)
+{
+    static const fm_method_desc method = {
+        HEAD,
+        .resources = { { .name = "result", .extent = { .constant = 1 } } },
+        .totals = { { .name = "sum", .resource = "result", .pass = "one" } },
+        .passes = { { .name = "clear", .kind = FM_PASS_CLEAR, .writes = { "result" } },
+                    { .name = "one",
+                      .kind = FM_PASS_PIXELS,
+                      .shader = "one.glsl",
+                      .writes = { "result" } },
+                    { .name = "ask", .kind = FM_PASS_HOST } },
+        .loops = { { .first = "one", .last = "ask" } },
+        .after = until_three,
+    };
+    assert_int_equal(run_frame(*state, &method, FM_BUFFERS_AUTO), 3);
+}
+
+static void loops_that_start_together_nest(void **state)
+{
+    static const fm_method_desc method = {
+        HEAD,
+        .resources = { { .name = "result", .extent = { .constant = 1 } } },
+        .passes = { { .name = "clear", .kind = FM_PASS_CLEAR, .writes = { "result" } },
+                    { .name = "one",
+                      .kind = FM_PASS_PIXELS,
+                      .shader = "one.glsl",
+                      .writes = { "result" } },
+                    { .name = "hundred",
+                      .kind = FM_PASS_PIXELS,
+                      .shader = "hundred.glsl",
+                      .writes = { "result" } } },
+        .loops = { { .first = "one", .last = "one", .count = 3 },
+                   { .first = "one", .last = "hundred", .count = 2 } },
+    };
+    assert_int_equal(run_frame(*state, &method, FM_BUFFERS_AUTO), 2 * (3 * 1 + 100));
+}
+
+static const fm_method_desc ping_pong = {
+    HEAD,
+    .resources = { { .name = "result", .extent = { .constant = 1 } },
+                   { .name = "value", .extent = { .per_pixel = 1 }, .ping_pong = true } },
+    .passes = { { .name = "step-on",
+                  .kind = FM_PASS_PIXELS,
+                  .shader = "step.glsl",
+                  .reads = { "value_previous" },
+                  .writes = { "value" } },
+                { .name = "take",
+                  .kind = FM_PASS_PIXELS,
+                  .shader = "take.glsl",
+                  .reads = { "value_previous" },
+                  .writes = { "result" } } },
+    .loops = { { .first = "step-on", .last = "step-on", .count = 5 } },
+};
+
+static void an_iteration_reads_what_the_last_one_wrote(void **state)
+{
+    assert_int_equal(run_frame(*state, &ping_pong, FM_BUFFERS_BOUND), 5);
+}
+
+static void an_iteration_reads_what_the_last_one_wrote_by_address(void **state)
+{
+    const fm_device *device = *state;
+    if ((device->caps.features & FM_FEATURE_BUFFER_ADDRESS) == 0)
+        skip();
+    assert_int_equal(run_frame(*state, &ping_pong, FM_BUFFERS_ADDRESS), 5);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        ON_VULKAN_AND_OSMESA(loop_without_count_runs_until_the_hook_lets_go),
+        ON_VULKAN_AND_OSMESA(loops_that_start_together_nest),
+        ON_VULKAN_AND_OSMESA(an_iteration_reads_what_the_last_one_wrote),
+        ON_VULKAN_AND_OSMESA(an_iteration_reads_what_the_last_one_wrote_by_address),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
