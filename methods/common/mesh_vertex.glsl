@@ -8,11 +8,12 @@ invariant gl_Position; // all passes and methods see the same depths
 void main()
 {
     uint instance = uint(FM_INSTANCE_ID);
-    mat4 clip_from_object = mat4(fm_clip_from_object[instance * 4u],
-                                 fm_clip_from_object[instance * 4u + 1u],
-                                 fm_clip_from_object[instance * 4u + 2u],
-                                 fm_clip_from_object[instance * 4u + 3u]);
-    gl_Position = clip_from_object * vec4(position, 1.0);
+    // Written out: of a matrix product each API's compiler takes the sum in an order of its own, and
+    // depths would be a few ulp apart.
+    gl_Position = fm_clip_from_object[instance * 4u] * position.x
+        + fm_clip_from_object[instance * 4u + 1u] * position.y
+        + fm_clip_from_object[instance * 4u + 2u] * position.z
+        + fm_clip_from_object[instance * 4u + 3u];
     fm_out_colour = colour;
     fm_out_instance = instance;
 }
