@@ -19,7 +19,7 @@ static fm_status add_pool(vulkan *self, fm_error *err)
         .poolSizeCount = sizeof sizes / sizeof sizes[0],
         .pPoolSizes = sizes,
     };
-    VkDescriptorPool *pools = realloc(all->pools, (all->count + 1) * sizeof *pools);
+    VkDescriptorPool *pools = realloc(all->pools, (all->count + 1) * sizeof(VkDescriptorPool));
     if (pools == NULL)
         return fm_fail(err, FM_NO_MEMORY, "vulkan: descriptor pools");
     all->pools = pools;

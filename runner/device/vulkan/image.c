@@ -56,19 +56,24 @@ static bool can_make(VkImageFormatProperties *limits, VkPhysicalDevice physical,
                                                     usage, 0, limits) == VK_SUCCESS;
 }
 
+/* The flags' values are the counts; as ours, bit s says that s samples are possible. */
+static uint32_t sample_bits(VkSampleCountFlags counts)
+{
+    uint32_t bits = 0;
+    for (uint32_t samples = 1; samples <= SAMPLES_MAX; samples *= 2) {
+        if ((counts & samples) != 0)
+            bits |= 1u << samples;
+    }
+    return bits;
+}
+
 uint32_t vulkan_find_samples(VkPhysicalDevice physical, fm_format first, fm_format last)
 {
     uint32_t common = ~0u;
     for (fm_format format = first; format <= last; format++) {
         VkImageFormatProperties limits = { .sampleCounts = 0 };
-        uint32_t bits = 0;
-        if (can_make(&limits, physical, format, usage_of(format))) {
-            for (uint32_t samples = 1; samples <= SAMPLES_MAX; samples *= 2) {
-                if ((limits.sampleCounts & samples) != 0) /* the flags' values are the counts */
-                    bits |= 1u << samples;
-            }
-        }
-        common &= bits;
+        const bool is_possible = can_make(&limits, physical, format, usage_of(format));
+        common &= is_possible ? sample_bits(limits.sampleCounts) : 0;
     }
     return common;
 }

@@ -86,6 +86,7 @@ fm_status vulkan_memory_bind_image(VkDeviceMemory *memory, const vulkan *self, V
 /* How a buffer of this folder is made. */
 typedef struct buffer_plan {
     uint64_t bytes;
+    fm_owner owner;
     VkBufferUsageFlags usage;
     uint32_t (*type)(const vulkan *, uint32_t allowed);
     bool is_mapped; /* if its memory can be */
@@ -145,6 +146,7 @@ static fm_status create(fm_buffer **buffer, const vulkan *self, const buffer_pla
     if (made == NULL)
         return fm_fail(err, FM_NO_MEMORY, "%zu bytes", sizeof *made);
     made->bytes = plan->bytes;
+    made->owner = plan->owner;
     const VkResult result = vkCreateBuffer(self->device, &info, NULL, &made->buffer);
     if (result != VK_SUCCESS) {
         made->buffer = VK_NULL_HANDLE;
@@ -225,6 +227,7 @@ fm_status vulkan_buffer_create(fm_buffer **buffer, fm_device *device, const fm_b
     vulkan *self = (vulkan *)device;
     const buffer_plan plan = {
         .bytes = desc->bytes,
+        .owner = desc->owner,
         .usage = usage_of(desc),
         .type = desc->host_reads ? host_read_type : device_type,
         .is_mapped = desc->host_reads,
@@ -236,7 +239,6 @@ fm_status vulkan_buffer_create(fm_buffer **buffer, fm_device *device, const fm_b
     status = create(buffer, self, &plan, err);
     if (status != FM_OK)
         return fm_error_prefix(err, "buffer '%s': ", desc->name);
-    (*buffer)->owner = desc->owner;
     ledger_add(&device->ledger, desc->owner, desc->bytes);
     return FM_OK;
 }
