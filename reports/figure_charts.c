@@ -297,7 +297,7 @@ static double add_stack(job *at, bar_place *place, const fm_case_row *result)
     for (size_t i = 0; i <= at->from->parts.count; i++) {
         double value = i < at->from->parts.count
                            ? result_files_metric(at->results, result, at->from->parts.names[i])
-                           : result->frame_ms - top; /* passes with names of their own */
+                           : result->frame_ms - top; /* own passes, and what medians of parts leave */
         if (!isfinite(value) || value <= (i < at->from->parts.count ? 0.0 : 0.02 * top))
             continue;
         fm_bar *bar = chart_add_bar(at->chart);
@@ -362,7 +362,7 @@ static void add_part_keys(job *at)
         key->colour = colour;
         key->swatch = true;
         if (i == at->from->parts.count) {
-            snprintf(key->label, sizeof key->label, "other passes");
+            snprintf(key->label, sizeof key->label, "rest of the frame");
             continue;
         }
         const char *name = at->from->parts.names[i];
