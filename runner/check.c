@@ -102,9 +102,10 @@ void check_pixel(fm_check *check, fm_fragment *captured, uint32_t captured_count
     qsort(captured, captured_count, sizeof *captured, compare_for_sort);
     const uint64_t missing = count_missing(captured, captured_count, truth, wanted);
     /* Without memory for the tie nothing can be vouched for: all of them count as extra. */
-    const uint64_t extra = used == NULL
-                               ? captured_count
-                               : count_extra(captured, captured_count, truth, truth_count, used);
+    uint64_t extra = used == NULL ? captured_count
+                                  : count_extra(captured, captured_count, truth, truth_count, used);
+    if (captured_count - extra > wanted) /* the pixel's own, but more than were asked for */
+        extra = captured_count - wanted;
     const uint32_t ulps =
         most_ulps(captured, captured_count < wanted ? captured_count : wanted, truth);
     check->captured += captured_count;

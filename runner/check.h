@@ -6,9 +6,10 @@
 
 /* Sums over all pixels. */
 typedef struct fm_check {
-    uint64_t captured;      /* fragments handed over */
-    uint64_t missing;       /* depths of the wanted multiset that were not captured */
-    uint64_t extra;         /* captured (depth, colour) pairs that the pixel does not have */
+    uint64_t captured; /* fragments handed over */
+    uint64_t missing;  /* depths of the wanted multiset that were not captured */
+    /* captured (depth, colour) pairs that the pixel does not have, or beyond the wanted count */
+    uint64_t extra;
     uint64_t misordered;    /* neighbours in decreasing depth */
     uint64_t wrong_pixels;  /* pixels with any of these */
     uint32_t depth_ulp_max; /* most representable steps between the i-th captured depth and the
