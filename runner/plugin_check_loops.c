@@ -14,6 +14,16 @@ static bool is_ended_by_hook(const fm_method_desc *method, const range *r)
     return false;
 }
 
+/* Its pipelines, one an iteration, are built before the frame. */
+static bool has_stepping_state(const fm_method_desc *method, const range *r)
+{
+    for (size_t i = r->first; i <= r->last; i++)
+        if (method->passes[i].state.stencil_reference_step != 0 ||
+            method->passes[i].state.sample_mask_step != 0)
+            return true;
+    return false;
+}
+
 static fm_status check_loop(range *r, const fm_check *check, const fm_loop *loop, fm_error *err)
 {
     size_t index;
@@ -26,10 +36,13 @@ static fm_status check_loop(range *r, const fm_check *check, const fm_loop *loop
         return status;
     if (r->first > r->last)
         return fm_fail(err, FM_INVALID, "last: '%s' stands before '%s'", loop->last, loop->first);
+    const bool is_counted = loop->count > 0 || loop->count_per_k > 0 || loop->count_per_n > 0;
+    if ((!is_counted || loop->until_zero != NULL) && has_stepping_state(check->method, r))
+        return fm_fail(err, FM_INVALID,
+                       "stencil_reference_step, sample_mask_step: need a loop of known count");
     if (loop->until_zero != NULL)
         return check_known(&index, loop->until_zero, "until_zero", &check->totals, err);
-    if (loop->count == 0 && loop->count_per_k == 0 && loop->count_per_n == 0 &&
-        !is_ended_by_hook(check->method, r))
+    if (!is_counted && !is_ended_by_hook(check->method, r))
         return fm_fail(err, FM_INVALID,
                        "no end: needs count, until_zero, or a host pass and the after hook");
     return FM_OK;

@@ -106,6 +106,19 @@ static fm_status check_access(const fm_check *check, const char *name, const cha
     return check_known(&index, name, field, &check->resources, err);
 }
 
+/* A clear fills any image; a shader stores into colour images of one sample only. */
+static fm_status check_written(const fm_check *check, const fm_pass *pass, const char *name,
+                               fm_error *err)
+{
+    const fm_resource *r = find_resource(check, name);
+    if (r == NULL || r->kind != FM_RESOURCE_IMAGE || pass->kind == FM_PASS_CLEAR)
+        return FM_OK;
+    if (check_is_depth_format(r->format) || r->samples > 1 || r->samples_per_k > 0)
+        return fm_fail(err, FM_INVALID,
+                       "writes '%s': shaders store into colour images of one sample only", name);
+    return FM_OK;
+}
+
 static fm_status check_accesses(const fm_check *check, const fm_pass *pass, fm_error *err)
 {
     size_t read_count, write_count;
@@ -116,8 +129,11 @@ static fm_status check_accesses(const fm_check *check, const fm_pass *pass, fm_e
                             "writes", err);
     for (size_t i = 0; status == FM_OK && i < read_count; i++)
         status = check_access(check, pass->reads[i], "reads", true, err);
-    for (size_t i = 0; status == FM_OK && i < write_count; i++)
+    for (size_t i = 0; status == FM_OK && i < write_count; i++) {
         status = check_access(check, pass->writes[i], "writes", false, err);
+        if (status == FM_OK)
+            status = check_written(check, pass, pass->writes[i], err);
+    }
     if (status != FM_OK)
         return status;
     if (pass->kind == FM_PASS_CLEAR && (write_count == 0 || read_count > 0))
@@ -252,7 +268,7 @@ static fm_status check_flags(const fm_pass *pass, fm_error *err)
         return fm_fail(err, FM_INVALID, "exclusive: only scene passes can be");
     if (pass->flat_tessellation && pass->kind != FM_PASS_SCENE)
         return fm_fail(err, FM_INVALID, "flat_tessellation: only scene passes can have it");
-    if (pass->emits && !kind_rules[pass->kind].has_shader)
+    if (pass->emits && pass->kind != FM_PASS_PIXELS)
         return fm_fail(err, FM_INVALID, "emits: a pass of kind %s cannot",
                        kind_rules[pass->kind].name);
     return FM_OK;

@@ -250,6 +250,7 @@ static void plugin_check_rejects_bad_passes(void **state)
     REFUSES(m.passes[RESOLVE].exclusive = true, "exclusive");
     REFUSES(m.passes[RESOLVE].flat_tessellation = true, "flat_tessellation");
     REFUSES(m.passes[CLEAR].emits = true, "emits");
+    REFUSES(m.passes[STORE].emits = true, "emits: a pass of kind scene cannot");
     REFUSES(m.passes[RESOLVE].emits = false, "none emits");
     REFUSES(m.passes[SPREAD].count_total = NULL, "count_total: needed");
     REFUSES(m.passes[SPREAD].count_total = "store", "nearest is 'stored'");

@@ -314,7 +314,8 @@ typedef struct fm_pass {
     fm_target targets[FM_MAX_TARGETS];
     fm_state state;
     bool exclusive;          /* store() runs alone at its pixel: spin lock or interlock */
-    bool emits;              /* calls fm_emit: the last such pass completes the image */
+    bool emits;              /* FM_PASS_PIXELS only: calls fm_emit; the last such pass completes
+                                the image */
     bool flat_tessellation;  /* a scene pass whose fragments do not depend on the tessellation is
                                 drawn with t = 1 */
     const char *count_total; /* FM_PASS_TOTAL */
