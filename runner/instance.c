@@ -60,7 +60,7 @@ static fm_status check_device(fm_instance *instance, fm_error *err)
             resource->format == FM_FORMAT_D32F || resource->format == FM_FORMAT_D32F_S8;
         const uint32_t possible = is_depth ? caps->depth_samples : caps->colour_samples;
         const uint32_t samples = resource_samples(instance, resource);
-        if (samples > 1 && (possible & samples) != samples)
+        if (samples > 1 && (samples >= 32 || (possible >> samples & 1u) == 0))
             status = fm_fail(err, FM_UNSUPPORTED,
                              "%s: resource '%s' has %u samples, which %s "
                              "does not have",

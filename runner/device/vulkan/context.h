@@ -158,7 +158,6 @@ fm_status vulkan_image_create(fm_image_resource **image, fm_device *device,
                               const fm_image_desc *desc, fm_error *err);
 void vulkan_image_destroy(fm_device *device, fm_image_resource *image);
 VkFormat vulkan_format(fm_format format);
-bool vulkan_format_is_integer(fm_format format);
 bool vulkan_format_has_stencil(fm_format format);
 /* Sample counts that images of all formats from first to last can have; bit s: s samples. */
 uint32_t vulkan_find_samples(VkPhysicalDevice physical, fm_format first, fm_format last);

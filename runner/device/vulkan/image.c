@@ -7,14 +7,14 @@ enum { SAMPLES_MAX = 16 };
 
 typedef struct format_traits {
     VkFormat format;
-    bool is_integer, has_depth, has_stencil;
+    bool has_depth, has_stencil;
 } format_traits;
 
 static const format_traits traits[] = {
     [FM_FORMAT_NONE] = { .format = VK_FORMAT_UNDEFINED },
-    [FM_FORMAT_R32UI] = { .format = VK_FORMAT_R32_UINT, .is_integer = true },
-    [FM_FORMAT_RG32UI] = { .format = VK_FORMAT_R32G32_UINT, .is_integer = true },
-    [FM_FORMAT_RGBA32UI] = { .format = VK_FORMAT_R32G32B32A32_UINT, .is_integer = true },
+    [FM_FORMAT_R32UI] = { .format = VK_FORMAT_R32_UINT },
+    [FM_FORMAT_RG32UI] = { .format = VK_FORMAT_R32G32_UINT },
+    [FM_FORMAT_RGBA32UI] = { .format = VK_FORMAT_R32G32B32A32_UINT },
     [FM_FORMAT_R32F] = { .format = VK_FORMAT_R32_SFLOAT },
     [FM_FORMAT_RG32F] = { .format = VK_FORMAT_R32G32_SFLOAT },
     [FM_FORMAT_RGBA32F] = { .format = VK_FORMAT_R32G32B32A32_SFLOAT },
@@ -29,11 +29,6 @@ _Static_assert(sizeof traits / sizeof traits[0] == FM_FORMAT_COUNT, "one a forma
 VkFormat vulkan_format(fm_format format)
 {
     return traits[format].format;
-}
-
-bool vulkan_format_is_integer(fm_format format)
-{
-    return traits[format].is_integer;
 }
 
 bool vulkan_format_has_stencil(fm_format format)
@@ -89,7 +84,7 @@ static fm_status check_image(const VkImageFormatProperties *limits, const fm_ima
     if (layers > limits->maxArrayLayers)
         return fm_fail(err, FM_UNSUPPORTED, "image '%s': %u layers, this device's most are %u",
                        desc->name, layers, limits->maxArrayLayers);
-    if ((limits->sampleCounts & samples) == 0)
+    if ((samples & (samples - 1)) != 0 || (limits->sampleCounts & samples) == 0)
         return fm_fail(err, FM_UNSUPPORTED, "image '%s': %u samples are not possible here",
                        desc->name, samples);
     return FM_OK;
