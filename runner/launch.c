@@ -176,8 +176,11 @@ static void watch(ending *end, pid_t pid, const fm_launcher *launcher, const fm_
             desc->tick(desc->context);
     }
     /* Not yet reaped, so the group's number is still ours: nothing it started survives. */
-    while (!has_ended(pid))
-        next_signal(launcher, 1.0);
+    while (!has_ended(pid)) {
+        const int signal_number = next_signal(launcher, 1.0);
+        if (signal_number == SIGINT || signal_number == SIGTERM)
+            end->stop_signal = signal_number;
+    }
     kill(-pid, SIGKILL);
     while (wait4(pid, &end->wait_status, 0, &usage) < 0 && errno == EINTR)
         continue;
