@@ -26,7 +26,7 @@ static uint32_t seed_word(uint64_t seed)
     return (uint32_t)(seed ^ seed >> 32);
 }
 
-/* The finaliser that layers.glsl shares; see scene.h. */
+/* The finaliser that methods/common/layers.glsl shares; see scene.h. */
 static uint32_t mix(uint32_t h)
 {
     h ^= h >> 16;

@@ -10,15 +10,15 @@ typedef struct fm_vertex {
     float position[3]; /* object space */
     uint32_t colour;   /* RGBA8, premultiplied: shaded on the host, the same on every device */
 } fm_vertex;
-_Static_assert(sizeof(fm_vertex) == 16, "vertex stride of mesh.glsl");
+_Static_assert(sizeof(fm_vertex) == 16, "attributes of mesh_vertex.glsl");
 
-/* One layer as generators/layers.glsl reads it. depth(x, y) = depth + slope_x * x + slope_y * y,
- * (x, y) the pixel's position in NDC. */
+/* One layer as methods/common/layers_vertex.glsl reads it. depth(x, y) = depth + slope_x * x +
+ * slope_y * y, (x, y) the pixel's position in NDC. */
 typedef struct fm_layer {
     float depth, slope_x, slope_y;
     uint32_t colour; /* RGBA8, premultiplied */
 } fm_layer;
-_Static_assert(sizeof(fm_layer) == 16, "std430 struct of layers.glsl");
+_Static_assert(sizeof(fm_layer) == 16, "std430 struct fm_layer of stage_shader.c");
 
 typedef struct fm_rect {
     uint32_t x0, y0, x1, y1; /* px, half open */
