@@ -338,6 +338,75 @@ static void null_hands_over_nothing(void **state)
     kit_close(&kit);
 }
 
+/* ---- options ---- */
+
+#define OPTIONS_SCENE                                                                              \
+    "width_px=23 height_px=17 pixel_density=0.8 n=9 tessellation=3 order=random-cell "             \
+    "fragment_probability=0.5"
+
+/* The way must give what truth has; a method that is not exact, what it gives by default. */
+static void expect_as_default(kit_scene *scene, const fm_method_desc *method, uint32_t feed,
+                              const fm_image *by_default, const char *texts)
+{
+    const kit_way way = { method->id, feed, texts };
+    fm_measurement m;
+    char where[256];
+    kit_tell(where, &way);
+    if (kit_measure(&m, scene, &way)) {
+        if ((method->traits & FM_TRAIT_EXACT) != 0)
+            expect_exact(&m, false, where, OPTIONS_SCENE);
+        if (method->family != FM_FAMILY_CONTROL || (method->traits & FM_TRAIT_EXACT) != 0)
+            expect_same_image(m.image, by_default, &way, "the default");
+    }
+    measurement_free(&m);
+}
+
+static void expect_own_options(kit_scene *scene, const fm_method_desc *method, uint32_t feed,
+                               const fm_image *by_default)
+{
+    char texts[160];
+    for (const fm_option *option = method->options;
+         option < method->options + FM_MAX_OPTIONS && option->name != NULL; option++)
+        for (int i = 0; i < FM_MAX_OPTION_VALUES && option->values[i] != NULL; i++) {
+            snprintf(texts, sizeof texts, "k=4 %s=%s", option->name, option->values[i]);
+            expect_as_default(scene, method, feed, by_default, texts);
+        }
+}
+
+/* What a method without a lock gives on compute feeds is chance. */
+static bool is_comparable(const fm_method_desc *method, uint32_t feed)
+{
+    return (kit_feeds(method) & feed) != 0 &&
+           (feed == FM_FEED_RASTER || (method->traits & FM_TRAIT_RACY) == 0);
+}
+
+static void options_change_no_fragment(void **state)
+{
+    static const char *const ways[] = { "k=4 buffers=bound", "k=4 buffers=address",
+                                        "k=4 full_screen=fragment", "k=4 pool=per-frame",
+                                        "k=4 full_screen=fragment buffers=bound pool=per-frame" };
+    static const uint32_t feeds[] = { FM_FEED_RASTER, FM_FEED_COMPUTE_LAYER };
+    scene_kit kit;
+    kit_scene scene;
+    kit_open(&kit, device_of(state));
+    kit_scene_open(&scene, &kit, OPTIONS_SCENE);
+    for (size_t i = 0; i < 2 * kit.plugins.count; i++) {
+        const fm_method_desc *method = kit_method(&kit, i / 2);
+        const uint32_t feed = feeds[i % 2];
+        fm_measurement m;
+        if (!is_comparable(method, feed))
+            continue;
+        if (kit_measure(&m, &scene, &(kit_way){ method->id, feed, "k=4" })) {
+            expect_own_options(&scene, method, feed, m.image);
+            for (size_t way = 0; way < sizeof ways / sizeof ways[0]; way++)
+                expect_as_default(&scene, method, feed, m.image, ways[way]);
+        }
+        measurement_free(&m);
+    }
+    kit_scene_close(&scene);
+    kit_close(&kit);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -345,6 +414,7 @@ int main(void)
         ON_VULKAN_AND_OSMESA(two_layers_mix_as_computed_by_head),
         ON_VULKAN_AND_OSMESA(depth_one_is_lost_only_where_declared),
         ON_VULKAN_AND_OSMESA(methods_agree_with_truth_on_scenes_of_all_kinds),
+        ON_VULKAN_AND_OSMESA(options_change_no_fragment),
         ON_VULKAN_AND_OSMESA(null_hands_over_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
