@@ -31,16 +31,6 @@ typedef struct launch_job {
     const char *failed_in; /* "plugin": a failure is the plugin's fault */
 } launch_job;
 
-static const struct feed_name {
-    const char *name;
-    uint32_t feed;
-} feed_names[] = {
-    { "raster", FM_FEED_RASTER },
-    { "compute-layer", FM_FEED_COMPUTE_LAYER },
-    { "compute-pixel", FM_FEED_COMPUTE_PIXEL },
-    { "compute-adjacent", FM_FEED_COMPUTE_ADJACENT },
-};
-
 /* ---- request ---- */
 
 static const char *text_of(const launch_job *job, const char *key)
@@ -84,13 +74,17 @@ static fm_status read_settings(launch_job *job)
 static fm_status read_feed(launch_job *job)
 {
     const char *name = text_of(job, "feed");
-    for (size_t i = 0; i < sizeof feed_names / sizeof feed_names[0]; i++)
-        if (strcmp(feed_names[i].name, name) == 0)
-            job->feed = feed_names[i].feed;
+    job->feed = feed_from_name(name) & FM_FEEDS_FRAGMENTS;
     if (job->feed == 0)
         return fm_fail(&job->error, FM_UNSUPPORTED, "feed '%s' is not one that this device carries",
                        name);
     return FM_OK;
+}
+
+/* No such device, or a mesh that cannot be used, is nothing that a plugin did wrong. */
+static fm_status not_the_plugins(fm_status status)
+{
+    return status == FM_INVALID || status == FM_IO ? FM_UNSUPPORTED : status;
 }
 
 static fm_status open_device(launch_job *job)
@@ -99,7 +93,7 @@ static fm_status open_device(launch_job *job)
                                   .no_timers = is_set(job, "no_timers") };
     fm_status status = device_open(&job->device, text_of(job, "device"), &desc, &job->error);
     if (status != FM_OK)
-        return status;
+        return not_the_plugins(status);
     const fm_device_caps *caps = &job->device->caps;
     json_object_set_new(job->result, "device_name", json_string(caps->name));
     json_object_set_new(job->result, "device_driver", json_string(caps->driver));
@@ -124,7 +118,7 @@ static fm_status open_scene(launch_job *job)
     fm_status status = settings_finish(&job->settings, &job->error);
     if (status == FM_OK)
         status = scene_create(&job->scene, &job->settings, &job->error);
-    return status;
+    return not_the_plugins(status);
 }
 
 /* ---- result ---- */
@@ -377,14 +371,26 @@ static fm_status measure_job(launch_job *job)
     return FM_OK;
 }
 
+/* A result's message tells what the validation found, unless there is worse to tell. */
 static void note_validation(launch_job *job)
 {
     const char *first = "";
     if (job->device == NULL || !is_set(job, "validation"))
         return;
     const uint32_t count = job->device->ops->validation_errors(job->device, &first);
-    json_object_set_new(job->result, "validation_errors", json_integer(count));
-    json_object_set_new(job->result, "validation_message", json_string(first));
+    if (count > 0 && job->error.message[0] == '\0')
+        fm_fail(&job->error, FM_OK, "validation: %u errors, the first: %s", count, first);
+}
+
+/* Compilers quote sources in any encoding, and long texts are cut anywhere: JSON takes UTF-8 only.
+ */
+static json_t *message_json(fm_error *error)
+{
+    json_t *message = json_string(error->message);
+    for (char *c = error->message; message == NULL && *c != '\0'; c++)
+        if ((unsigned char)*c > '~')
+            *c = '?';
+    return message != NULL ? message : json_string(error->message);
 }
 
 static void release(launch_job *job)
@@ -415,8 +421,8 @@ int worker_main(const char *request_path, const char *result_path)
     const char *word =
         status == FM_OK && is_wrong(&job) ? "wrong_image" : status_word(&job, status);
     json_object_set_new(job.result, "status", json_string(word));
-    json_object_set_new(job.result, "message", json_string(job.error.message));
     note_validation(&job);
+    json_object_set_new(job.result, "message", message_json(&job.error));
     const int written = json_dump_file(job.result, result_path, JSON_INDENT(1));
     release(&job);
     return written == 0 ? 0 : 1;

@@ -16,7 +16,8 @@
  *               "plugin_error",
  *     "message": "",
  *     "device_name": "...", "device_driver": "...", "device_api": "...", "has_gpu_clock": false,
- *     "modelled": { "scene": [...], "passes": [...], "buffers": {"fragments": bytes, ...} },
+ *     "is_software": true,
+ *     "modelled": { "scene": [...], "passes": [...], "buffers": [...] },     names
  *     "image_hash": "16 hex digits",
  *     "metrics": { "n": 128, "bytes_allocated": ..., ... }   one number a case
  *     "samples": [ { "frame": 0, "metric": "store_ms", "value": 1.25, "unit": "ms" }, ... ] }
