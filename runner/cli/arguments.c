@@ -41,6 +41,7 @@ static const struct argp_option running_options[] = {
     { "validation", KEY_VALIDATION, NULL, 0, "open devices with API validation (times suffer)", 0 },
     { "no-timers", KEY_NO_TIMERS, NULL, 0, "no timers, so that barriers follow accesses alone", 0 },
     { "quiet", 'q', NULL, 0, "no progress", 0 },
+    CLI_HELP_OPTION,
     { 0 },
 };
 
@@ -139,6 +140,9 @@ static error_t parse_running(int key, char *text, struct argp_state *state)
     case 'q':
         arguments->quiet = true;
         return 0;
+    case 'h':
+        argp_state_help(state, state->out_stream, ARGP_HELP_STD_HELP);
+        return 0;
     default:
         return ARGP_ERR_UNKNOWN;
     }
@@ -147,15 +151,36 @@ static error_t parse_running(int key, char *text, struct argp_state *state)
 const struct argp cli_selection_argp = { .options = selection_options, .parser = parse_selection };
 const struct argp cli_running_argp = { .options = running_options, .parser = parse_running };
 
+/* argp breaks lines at 79 columns without an indent: done here, under the column of texts. */
+static void add_wrapped(fm_text *all, const char *text)
+{
+    enum { WIDTH = 79, INDENT = 24 };
+    while (*text != '\0') {
+        size_t length = strcspn(text, "\n"), cut = length;
+        if (length > WIDTH)
+            for (cut = WIDTH; cut > INDENT && text[cut] != ' '; cut--)
+                ;
+        const bool is_cut = cut < length && cut > INDENT;
+        cut = is_cut ? cut : length;
+        text_add(all, "%.*s\n", (int)cut, text);
+        if (is_cut)
+            text_add(all, "%*s", INDENT, "");
+        text += cut + (text[cut] != '\0');
+    }
+}
+
 char *cli_axes_help(int key, const char *text, void *input)
 {
     (void)input;
     fm_text all = { 0 };
     if (key != ARGP_KEY_HELP_POST_DOC || text == NULL)
         return (char *)(uintptr_t)text; /* argp's own, given back as it came */
+    fm_text keys = { 0 };
     text_add(&all, "%s\n\n", text);
-    keys_help(&all);
+    keys_help(&keys);
+    add_wrapped(&all, keys.bytes != NULL ? keys.bytes : "");
     text_add(&all, "\n%s", CLI_EXIT_CODES);
+    text_free(&keys);
     return all.bytes;
 }
 

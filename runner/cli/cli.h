@@ -67,6 +67,11 @@ extern const struct argp cli_selection_argp; /* --method ... -a, --plugin-dir, -
 extern const struct argp cli_running_argp;   /* -o, --timeout ... */
 /* For argp's help_filter: "\v"-less text that ends with the table of axes. */
 char *cli_axes_help(int key, const char *text, void *input);
+/* -h is --help: argp itself knows -? only. */
+#define CLI_HELP_OPTION                                                                            \
+    {                                                                                              \
+        NULL, 'h', NULL, OPTION_HIDDEN, NULL, 0                                                    \
+    }
 /* argp_failure with err's message: prints it and ends the program with CLI_USAGE. */
 void cli_argp_fail(struct argp_state *state, const fm_error *err);
 void arguments_free(fm_arguments *arguments);
@@ -99,6 +104,9 @@ fm_status figure_write_spec(const char *path, const fm_figure *figure, bool is_s
 /* Plans are run, reported and summed up: the end of run and reproduce. figures ends with NULL. */
 int cli_run_plan(const fm_arguments *arguments, const char *directory, const fm_plan *plan,
                  const fm_plugin_list *plugins, const char *const *figures, const char *command);
+/* A line for each reason why cases of the run in this folder are not ok, each once, the first few.
+ */
+void cli_reasons(FILE *talk, const char *directory);
 /* -o, or out-UTC. */
 void cli_directory(char directory[FM_PATH_MAX_BYTES], const fm_arguments *arguments);
 /* The words of a command line, quoted where a shell needs it; the caller frees it. NULL: no memory

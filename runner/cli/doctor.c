@@ -10,6 +10,7 @@ enum { KEY_JSON = 512, DEVICES_MAX = 32 };
 
 static const struct argp_option options[] = {
     { "json", KEY_JSON, NULL, 0, "as JSON", 0 },
+    CLI_HELP_OPTION,
     { 0 },
 };
 
@@ -17,10 +18,16 @@ static error_t parse(int key, char *text, struct argp_state *state)
 {
     bool *json = state->input;
     (void)text;
-    if (key != KEY_JSON)
+    switch (key) {
+    case KEY_JSON:
+        *json = true;
+        return 0;
+    case 'h':
+        argp_state_help(state, state->out_stream, ARGP_HELP_STD_HELP);
+        return 0;
+    default:
         return ARGP_ERR_UNKNOWN;
-    *json = true;
-    return 0;
+    }
 }
 
 static const struct argp argp = {
@@ -232,8 +239,10 @@ static void write_device(FILE *out, const json_t *device)
     write_list(out, json_object_get(device, "depth_samples"));
     fprintf(out, "\n  %-22s %lld\n", "subgroup size",
             (long long)json_integer_value(json_object_get(device, "subgroup_size")));
-    fprintf(out, "  %-22s %.2f GiB bound, %.2f GiB by address\n", "largest buffer",
-            gib_of(device, "storage_range_bytes"), gib_of(device, "buffer_max_bytes"));
+    fprintf(out, "  %-22s %.2f GiB bound", "largest buffer", gib_of(device, "storage_range_bytes"));
+    if (gib_of(device, "buffer_max_bytes") > 0.0)
+        fprintf(out, ", %.2f GiB by address", gib_of(device, "buffer_max_bytes"));
+    fputc('\n', out);
     const double tick_ns = json_number_value(json_object_get(device, "timestamp_ns"));
     if (tick_ns > 0.0)
         fprintf(out, "  %-22s %g ns a tick\n", "timers", tick_ns);

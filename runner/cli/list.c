@@ -16,6 +16,7 @@ typedef struct list_arguments {
 static const struct argp_option options[] = {
     { "json", KEY_JSON, NULL, 0, "as JSON", 0 },
     { "plugin-dir", KEY_PLUGINS, "DIR", 0, "look for methods here first; repeatable", 0 },
+    CLI_HELP_OPTION,
     { 0 },
 };
 
@@ -193,6 +194,9 @@ static error_t parse(int key, char *text, struct argp_state *state)
             argp_error(state, "'%s': one list at a time", text);
         require_known(state, text);
         arguments->what = text;
+        return 0;
+    case 'h':
+        argp_state_help(state, state->out_stream, ARGP_HELP_STD_HELP);
         return 0;
     case ARGP_KEY_END:
         if (arguments->what == NULL)

@@ -75,6 +75,9 @@ static error_t parse(int key, char *text, struct argp_state *state)
             argp_error(state, "'%s': one DIR only", text);
         *directory = text;
         return 0;
+    case 'h':
+        argp_state_help(state, state->out_stream, ARGP_HELP_STD_HELP);
+        return 0;
     case ARGP_KEY_END:
         if (*directory == NULL)
             argp_error(state, "which DIR? One that `fragmark run -o DIR` filled");
@@ -84,7 +87,9 @@ static error_t parse(int key, char *text, struct argp_state *state)
     }
 }
 
+static const struct argp_option options[] = { CLI_HELP_OPTION, { 0 } };
 static const struct argp argp = {
+    .options = options,
     .parser = parse,
     .args_doc = "DIR",
     .doc = "Draws charts and report.html again from the CSV files in DIR."

@@ -121,6 +121,8 @@ static void sum_up(const fm_arguments *arguments, const fm_run_result *result,
     if (result->skipped > 0)
         fprintf(talk, ", %u not finished", result->skipped);
     fputc('\n', talk);
+    if (result->not_supported + result->failed > 0)
+        cli_reasons(talk, directory);
 }
 
 int cli_run_plan(const fm_arguments *arguments, const char *directory, const fm_plan *plan,
