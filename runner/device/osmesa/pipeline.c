@@ -24,8 +24,9 @@ static unsigned find_error_line(const char *log)
 {
     for (const char *at = log; at != NULL; at = strchr(at, '\n')) {
         unsigned line = 0;
+        int end = 0; /* stays 0 if the word is not "error": a warning */
         at += *at == '\n';
-        if (sscanf(at, "0:%u(%*u): error", &line) == 1 && line > 0)
+        if (sscanf(at, "0:%u(%*u): error%n", &line, &end) == 1 && end > 0)
             return line;
         if (*at == '\0')
             break;

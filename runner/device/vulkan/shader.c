@@ -27,7 +27,8 @@ static unsigned find_error_line(const char *log)
 {
     for (const char *at = log; at != NULL && *at != '\0';) {
         unsigned line = 0;
-        if (sscanf(at, SOURCE_NAME ":%u: error", &line) == 1 && line > 0)
+        int end = 0; /* stays 0 if the word is not "error": a warning */
+        if (sscanf(at, SOURCE_NAME ":%u: error%n", &line, &end) == 1 && end > 0)
             return line;
         at = strchr(at, '\n');
         at = at != NULL ? at + 1 : NULL;
