@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include <unistd.h>
 
 #include "cli.h"
 
@@ -125,6 +126,18 @@ static void sum_up(const fm_arguments *arguments, const fm_run_result *result,
         cli_reasons(talk, directory);
 }
 
+/* Who edits a method and repeats a command would take old results for new ones. */
+static void tell_continued(const fm_arguments *arguments, const char *directory)
+{
+    char journal[FM_PATH_MAX_BYTES + 16];
+    snprintf(journal, sizeof journal, "%s/journal.jsonl", directory);
+    if (!arguments->quiet && access(journal, F_OK) == 0)
+        fprintf(arguments->cli->talk,
+                "%s: goes on with what an earlier run left; what it finished is not measured again "
+                "(remove the folder, or name another, to measure anew)\n",
+                directory);
+}
+
 int cli_run_plan(const fm_arguments *arguments, const char *directory, const fm_plan *plan,
                  const fm_plugin_list *plugins, const char *const *figures, const char *command)
 {
@@ -141,6 +154,7 @@ int cli_run_plan(const fm_arguments *arguments, const char *directory, const fm_
         .progress = arguments->quiet ? NULL : arguments->cli->talk,
         .figures = figures,
     };
+    tell_continued(arguments, directory);
     if (run_cases(&result, plan, plugins, &desc, &err) != FM_OK) {
         const int code = cli_fail(arguments->cli, &err);
         if (err.status != FM_IO)
