@@ -401,7 +401,7 @@ static fm_status create_pipelines(built_pass *built, fm_instance *instance, cons
             stage_vertex_layout(&desc, instance->desc.stage);
     }
     built->pipeline_count = pipeline_count(instance, pass);
-    built->pipelines = calloc(built->pipeline_count, sizeof built->pipelines[0]);
+    built->pipelines = calloc(built->pipeline_count, sizeof(fm_pipeline *));
     if (built->pipelines == NULL)
         status = fm_fail(err, FM_NO_MEMORY, "%s: pipelines", name);
     for (uint32_t i = 0; i < built->pipeline_count && status == FM_OK; i++) {
