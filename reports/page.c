@@ -62,7 +62,8 @@ void page_begin(fm_text *page, const fm_result_files *results)
     add_fact(page, "commit", provenance_fact(manifest, "git_commit"));
     text_add(page, "</dl>\n<nav><a href=\"#speed\">Speed against error</a>"
                    "<a href=\"#figures\">Figures</a><a href=\"#pictures\">Pictures</a>"
-                   "<a href=\"#guide\">How to read</a><a href=\"#machine\">Machine and methods</a>"
+                   "<a href=\"#notes\">Notes</a><a href=\"#guide\">How to read</a><a "
+                   "href=\"#machine\">Machine and methods</a>"
                    "</nav>\n");
 }
 
@@ -76,8 +77,9 @@ void page_add_guide(fm_text *page)
         "the samples of each). Two methods whose intervals overlap are not told apart by this run.",
         "<b>The floor</b> is a method that consumes every fragment and stores none. <b>&times; "
         "floor</b> is a method's store time over the floor's, measured in the same process: 1 is "
-        "the least that any method can take here, so it can be compared between machines "
-        "where milliseconds cannot.",
+        "as cheap as taking every fragment can be, and only hardware that rejects fragments before "
+        "the shader (Z-buffer) comes below. It compares between machines where milliseconds "
+        "cannot.",
         "<b>total_rmse</b> is the error of the picture against all fragments, sorted and "
         "composited "
         "in double precision; up to 1e-6 it is rounding, and called exact. It has two parts: "
