@@ -40,47 +40,72 @@ static uint64_t store_time(const fm_frame_result *frame, const fm_method_desc *m
 }
 
 /* On a software rasteriser a lock's owner may lose its processor for longer than all tries that its
- * loops allow: such a frame is run again. What is lost every time is the method's own loss. */
-static fm_status frame_again_if_lossy(fm_frame_result *result, fm_instance *instance,
-                                      const fm_band *band, const fm_device *device, fm_error *err)
+ * loops allow: such a frame is counted and run again. What is lost every time is the method's own
+ * loss. */
+static fm_status frame_again_if_lossy(fm_frame_result *result, fm_measurement *measurement,
+                                      fm_instance *instance, const fm_band *band,
+                                      const fm_device *device, fm_error *err)
 {
     const int tries = device->caps.is_software ? LOSSY_FRAMES : 1;
     fm_status status = FM_OK;
     for (int i = 0; i < tries && status == FM_OK; i++) {
         status = instance_frame(result, instance, band, err);
-        if (result->lost == 0)
+        measurement->frames_redone += result->redos;
+        if (status != FM_OK || result->lost == 0)
             break;
+        measurement->frames_lossy++;
     }
     return status;
 }
 
-/* One frame of the method, then one of the floor, so that both see the same machine. */
-static fm_status sample_once(fm_sample *sample, uint64_t *lost, fm_instance *method,
-                             fm_instance *floor, const fm_measure_desc *desc, fm_error *err)
+/* The method and the floor of one launch. */
+typedef struct pair {
+    fm_instance *method, *floor;
+    const fm_measure_desc *desc;
+} pair;
+
+static fm_status sample_method(fm_sample *sample, fm_measurement *measurement, const pair *pair,
+                               fm_error *err)
 {
-    fm_frame_result result, beside;
-    fm_status status =
-        frame_again_if_lossy(&result, method, NULL, desc->method->stage->device, err);
-    if (status != FM_OK)
-        return status;
+    fm_frame_result result;
+    fm_status status = frame_again_if_lossy(&result, measurement, pair->method, NULL,
+                                            pair->desc->method->stage->device, err);
     memcpy(sample->pass_ns, result.pass_ns, sizeof sample->pass_ns);
     sample->wall_ns = result.wall_ns;
     sample->canary_ns = result.canary_ns;
-    *lost = result.lost > *lost ? result.lost : *lost;
-    status = instance_frame(&beside, floor, NULL, err);
-    sample->floor_frame_ns = sum_passes(&beside);
-    sample->floor_store_ns = store_time(&beside, desc->floor->method);
+    measurement->lost = result.lost > measurement->lost ? result.lost : measurement->lost;
     return status;
 }
 
-static fm_status take_samples(fm_measurement *measurement, fm_instance *method, fm_instance *floor,
-                              const fm_measure_desc *desc, fm_error *err)
+static fm_status sample_floor(fm_sample *sample, const pair *pair, fm_error *err)
 {
+    fm_frame_result result;
+    fm_status status = instance_frame(&result, pair->floor, NULL, err);
+    sample->floor_frame_ns = sum_passes(&result);
+    sample->floor_store_ns = store_time(&result, pair->desc->floor->method);
+    return status;
+}
+
+/* One frame of each, so that both see the same machine; by turns the one or the other is first. */
+static fm_status sample_once(fm_sample *sample, fm_measurement *measurement, const pair *pair,
+                             bool floor_first, fm_error *err)
+{
+    fm_status status = floor_first ? sample_floor(sample, pair, err) : FM_OK;
+    if (status == FM_OK)
+        status = sample_method(sample, measurement, pair, err);
+    if (status == FM_OK && !floor_first)
+        status = sample_floor(sample, pair, err);
+    return status;
+}
+
+static fm_status take_samples(fm_measurement *measurement, const pair *pair, fm_error *err)
+{
+    const fm_measure_desc *desc = pair->desc;
     fm_sample ignored;
     fm_status status = FM_OK;
     bool is_long = false;
     for (uint32_t i = 0; i < desc->warmup && status == FM_OK && !is_long; i++) {
-        status = sample_once(&ignored, &measurement->lost, method, floor, desc, err);
+        status = sample_once(&ignored, measurement, pair, false, err);
         is_long = i > 0 && ignored.wall_ns > MEASURE_LONG_FRAME_NS;
     }
     measurement->lost = 0;
@@ -88,7 +113,7 @@ static fm_status take_samples(fm_measurement *measurement, fm_instance *method, 
         fm_sample *sample = &measurement->samples[i];
         if (is_long && i >= LONG_FRAME_SAMPLES)
             break;
-        status = sample_once(sample, &measurement->lost, method, floor, desc, err);
+        status = sample_once(sample, measurement, pair, i % 2 == 1, err);
         is_long = is_long || sample->wall_ns > MEASURE_LONG_FRAME_NS;
         measurement->sample_count = i + 1;
     }
@@ -120,7 +145,7 @@ static fm_status measure_times(fm_measurement *measurement, const fm_measure_des
     if (status == FM_OK)
         status = instance_create(&method, desc->method, err);
     if (status == FM_OK)
-        status = take_samples(measurement, method, floor, desc, err);
+        status = take_samples(measurement, &(pair){ method, floor, desc }, err);
     if (status == FM_OK)
         status = read_image(&measurement->image, stage, err);
     if (status == FM_OK) {
@@ -209,7 +234,8 @@ static fm_status check_bands(checking *check, fm_instance *instance, fm_error *e
         if (first > 0 && instance_can_emit_again(instance)) {
             status = instance_emit(instance, &band, err);
         } else {
-            status = frame_again_if_lossy(&result, instance, &band, check->stage->device, err);
+            status = frame_again_if_lossy(&result, check->measurement, instance, &band,
+                                          check->stage->device, err);
             check->measurement->culled = result.culled;
             check->measurement->locked = result.locked;
         }

@@ -204,6 +204,8 @@ static void add_metrics(launch_job *job)
     set_count(metrics, "bytes_used", m->bytes_used);
     set_count(metrics, "fragments_generated", job->truth->fragment_count);
     set_count(metrics, "fragments_lost", m->lost);
+    set_count(metrics, "frames_redone", m->frames_redone);
+    set_count(metrics, "frames_lossy", m->frames_lossy);
     if (m->is_checked)
         add_checked(metrics, m, job->truth);
     for (uint32_t i = 0; i < m->sample_count; i++)

@@ -3,6 +3,7 @@
 layout(location = 0) flat out uint fm_out_colour;
 layout(location = 1) flat out uint fm_out_layer;
 layout(location = 2) flat out uint fm_out_instance;
+invariant gl_Position; // all passes and methods see the same depths
 
 void main()
 {

@@ -20,11 +20,15 @@ void main()
 #endif
 #if FM_INTERLOCK
     // GLSL allows the two calls in main() only, and not behind a return.
-    is_alive = is_alive && wanted(pixel, depth);
+    bool is_wanted = is_alive && wanted(pixel, depth);
     beginInvocationInterlockARB();
-    if (is_alive)
+    if (is_wanted)
         store(pixel, depth, fm_in_colour);
     endInvocationInterlockARB();
+    if (is_wanted)
+        fm_locked();
+    else if (is_alive)
+        fm_culled();
 #else
     if (is_alive)
         fm_take(pixel, depth, fm_in_colour);
