@@ -59,13 +59,13 @@ static fm_status frame_again_if_lossy(fm_frame_result *result, fm_measurement *m
 }
 
 /* The method and the floor of one launch. */
-typedef struct pair {
+typedef struct launch_pair {
     fm_instance *method, *floor;
     const fm_measure_desc *desc;
-} pair;
+} launch_pair;
 
-static fm_status sample_method(fm_sample *sample, fm_measurement *measurement, const pair *pair,
-                               fm_error *err)
+static fm_status sample_method(fm_sample *sample, fm_measurement *measurement,
+                               const launch_pair *pair, fm_error *err)
 {
     fm_frame_result result;
     fm_status status = frame_again_if_lossy(&result, measurement, pair->method, NULL,
@@ -77,7 +77,7 @@ static fm_status sample_method(fm_sample *sample, fm_measurement *measurement, c
     return status;
 }
 
-static fm_status sample_floor(fm_sample *sample, const pair *pair, fm_error *err)
+static fm_status sample_floor(fm_sample *sample, const launch_pair *pair, fm_error *err)
 {
     fm_frame_result result;
     fm_status status = instance_frame(&result, pair->floor, NULL, err);
@@ -87,8 +87,8 @@ static fm_status sample_floor(fm_sample *sample, const pair *pair, fm_error *err
 }
 
 /* One frame of each, so that both see the same machine; by turns the one or the other is first. */
-static fm_status sample_once(fm_sample *sample, fm_measurement *measurement, const pair *pair,
-                             bool floor_first, fm_error *err)
+static fm_status sample_once(fm_sample *sample, fm_measurement *measurement,
+                             const launch_pair *pair, bool floor_first, fm_error *err)
 {
     fm_status status = floor_first ? sample_floor(sample, pair, err) : FM_OK;
     if (status == FM_OK)
@@ -98,7 +98,7 @@ static fm_status sample_once(fm_sample *sample, fm_measurement *measurement, con
     return status;
 }
 
-static fm_status take_samples(fm_measurement *measurement, const pair *pair, fm_error *err)
+static fm_status take_samples(fm_measurement *measurement, const launch_pair *pair, fm_error *err)
 {
     const fm_measure_desc *desc = pair->desc;
     fm_sample ignored;
@@ -145,7 +145,7 @@ static fm_status measure_times(fm_measurement *measurement, const fm_measure_des
     if (status == FM_OK)
         status = instance_create(&method, desc->method, err);
     if (status == FM_OK)
-        status = take_samples(measurement, &(pair){ method, floor, desc }, err);
+        status = take_samples(measurement, &(launch_pair){ method, floor, desc }, err);
     if (status == FM_OK)
         status = read_image(&measurement->image, stage, err);
     if (status == FM_OK) {

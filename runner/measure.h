@@ -25,9 +25,9 @@ typedef struct fm_measurement {
     bool is_long; /* a frame took over MEASURE_LONG_FRAME_NS: two samples only */
     uint64_t bytes_allocated, bytes_predicted, bytes_used;
     uint64_t lost;
-    uint64_t frames_redone; /* because something had to grow; warm-up included */
+    uint64_t frames_redone; /* because something had to grow; warm-up and check included */
     uint64_t frames_lossy;  /* run again on a software rasteriser, since a lock gave up */
-    fm_image *image; /* of the last timed frame; owned */
+    fm_image *image;        /* of the last timed frame; owned */
 
     /* checked launches only */
     bool is_checked;
