@@ -26,7 +26,8 @@ enum {
     VULKAN_DEVICES_MAX = 16,
 };
 
-/* No wait is longer: a frame that takes a minute has hung. */
+/* No wait for a GPU is longer: a frame that takes a minute has hung. Software does not hang, it is
+ * slow: who waits for its process says how long. */
 #define VULKAN_WAIT_NS (60ull * 1000 * 1000 * 1000)
 
 /* The accesses to a resource since `epoch` began; older ones are complete and visible. */

@@ -20,7 +20,8 @@ fm_status vulkan_submit(vulkan *self, VkCommandBuffer commands, const char *what
         result = vkQueueSubmit2(self->queue, 1, &submit, self->fence);
     if (result != VK_SUCCESS)
         return vulkan_fail(err, result, "%s: submitting", what);
-    result = vkWaitForFences(self->device, 1, &self->fence, VK_TRUE, VULKAN_WAIT_NS);
+    result = vkWaitForFences(self->device, 1, &self->fence, VK_TRUE,
+                             self->base.caps.is_software ? UINT64_MAX : VULKAN_WAIT_NS);
     if (result == VK_TIMEOUT) {
         self->has_hung = true;
         return fm_fail(err, FM_DEVICE_LOST, "%s: the GPU did not finish within %llu s", what,
