@@ -36,7 +36,6 @@ typedef struct fm_device_caps {
     char api[64];      /* "Vulkan 1.3.230", "OpenGL 4.5 (core)" */
     uint32_t features; /* FM_FEATURE_* */
     bool is_software;
-    bool has_full_screen_attachments; /* colour, depth and stencil targets work */
     bool has_gpu_clock;       /* its clock falls when idle: canaries tell (see fm_frame_times) */
     bool needs_helper_guard;  /* helper lanes reach atomics: shaders leave before any lock */
     bool needs_lock_barriers; /* memory barriers around a lock's section are needed (and work) */
@@ -49,7 +48,6 @@ typedef struct fm_device_caps {
     uint64_t memory_bytes;     /* device memory; 0: not known */
     uint32_t max_groups[3];    /* workgroups in a dispatch */
     double timestamp_ns;       /* one tick; 0: no timestamps */
-    bool is_lavapipe_like;     /* Mesa software rasteriser: compile-time quirks of the prelude */
 } fm_device_caps;
 
 /* How a device is opened. Zero is the default. */

@@ -83,7 +83,6 @@ static void fill_caps(fm_device_caps *caps, dummy_fault fault)
         .api = "none",
         .features = FM_FEATURES_ALL,
         .is_software = true,
-        .has_full_screen_attachments = true,
         .subgroup_size = 32,
         .colour_samples = 1u << 1 | 1u << 2 | 1u << 4 | 1u << 8,
         .depth_samples = 1u << 1 | 1u << 2 | 1u << 4 | 1u << 8,

@@ -120,7 +120,6 @@ static void find_caps(fm_device_caps *caps, const fm_gl *gl)
     *caps = (fm_device_caps){
         .features = find_features(gl),
         .is_software = true,
-        .has_full_screen_attachments = true,
         /* llvmpipe masks helper lanes off before atomics, and its threads share one coherent
          * memory: neither guard nor lock barriers are needed. */
         .needs_helper_guard = false,
@@ -132,7 +131,6 @@ static void find_caps(fm_device_caps *caps, const fm_gl *gl)
         .max_targets = draw_buffers < FM_MAX_TARGETS ? draw_buffers : FM_MAX_TARGETS,
         .storage_range_bytes = (uint64_t)storage_bytes,
         .timestamp_ns = 1.0,
-        .is_lavapipe_like = true,
     };
     for (GLuint axis = 0; axis < 3; axis++) {
         GLint groups = 0;

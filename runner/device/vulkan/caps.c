@@ -182,13 +182,11 @@ static void find_caps(vulkan *self, VkPhysicalDeviceVulkan11Properties *core11)
     caps->is_software = type == VK_PHYSICAL_DEVICE_TYPE_CPU;
     caps->has_gpu_clock = type == VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU ||
                           type == VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU;
-    caps->has_full_screen_attachments = true;
     /* lavapipe masks helper lanes off before atomics; it cannot compile gl_HelperInvocation, and
      * memory barriers in divergent compute code break it. */
     caps->needs_helper_guard = !is_lavapipe;
     caps->needs_lock_barriers = !is_lavapipe;
     caps->loop_limit = is_lavapipe ? LAVAPIPE_LOOP_LIMIT : 0;
-    caps->is_lavapipe_like = is_lavapipe;
 }
 
 fm_status vulkan_device_create(vulkan *self, fm_error *err)
