@@ -180,6 +180,35 @@ static void vulkan_refuses_samples_and_sizes_it_lacks(void **state)
     assert_int_equal(device->ledger.peak_bytes[FM_OWNER_RUNNER], 0);
 }
 
+/* No shader stores into a depth image: the same way as into a format that this device lacks for it.
+ */
+static void vulkan_refuses_to_bind_an_image_that_it_cannot_store_into(void **state)
+{
+    static const char source[] = "#version 450\n"
+                                 "layout(local_size_x = 1) in;\n"
+                                 "layout(binding = 0, r32f) uniform image2D to;\n"
+                                 "void main() { imageStore(to, ivec2(0), vec4(0.5)); }\n";
+    fm_device *device = device_of(state);
+    fm_error err = { .message = "" };
+    fm_image_resource *image = make_image(device, FM_FORMAT_D32F, 1);
+    fm_pipeline *pipeline =
+        make_pipeline(device, (fm_pipeline_desc){ .compute = source,
+                                                  .bindings = { { 0, FM_BINDING_STORAGE_IMAGE } },
+                                                  .binding_count = 1 });
+    const fm_bind bind = { .kind = FM_BINDING_STORAGE_IMAGE,
+                           .image = image,
+                           .access = FM_ACCESS_WRITE };
+    begin(device);
+    const fm_dispatch stores = {
+        .pipeline = pipeline, .binds = &bind, .bind_count = 1, .groups = { 1, 1, 1 }
+    };
+    assert_int_equal(device->ops->dispatch(device, &stores, &err), FM_UNSUPPORTED);
+    assert_non_null(strstr(err.message, "cannot store"));
+    end(device);
+    device->ops->pipeline_destroy(device, pipeline);
+    device->ops->image_destroy(device, image);
+}
+
 /* More sets than a descriptor pool holds, in one frame and then in another. */
 static void vulkan_binds_more_sets_than_a_pool_holds(void **state)
 {
@@ -299,6 +328,7 @@ int main(void)
         ON_VALIDATED(vulkan_reaches_buffers_by_address),
         ON_VULKAN(vulkan_refuses_a_longer_buffer_by_address_with_both_numbers),
         ON_VALIDATED(vulkan_refuses_samples_and_sizes_it_lacks),
+        ON_VULKAN(vulkan_refuses_to_bind_an_image_that_it_cannot_store_into),
         ON_VULKAN(vulkan_binds_more_sets_than_a_pool_holds),
         ON_VALIDATED(vulkan_binds_more_sets_than_a_pool_holds),
         ON_VULKAN(vulkan_says_when_a_frame_has_too_many_intervals),

@@ -59,6 +59,8 @@ struct fm_image_resource {
     VkImageView shader_view; /* all layers, colour or depth */
     VkImageAspectFlags aspects;
     uint32_t width_px, height_px;
+    char name[64];  /* in messages */
+    bool can_store; /* shaders may store into it: the device could make it so */
     uint64_t bytes; /* as booked */
     fm_owner owner;
     vulkan_access access;

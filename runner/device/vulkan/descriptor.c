@@ -83,6 +83,17 @@ static VkWriteDescriptorSet write_image(VkDescriptorImageInfo *info, const vulka
     };
 }
 
+static fm_status check_stores(const fm_bind *binds, uint32_t count, fm_error *err)
+{
+    for (uint32_t i = 0; i < count; i++)
+        if (binds[i].kind == FM_BINDING_STORAGE_IMAGE && !binds[i].image->can_store)
+            return fm_fail(err, FM_UNSUPPORTED,
+                           "image '%s': shaders cannot store into its format, or into so many "
+                           "samples, on this device",
+                           binds[i].image->name);
+    return FM_OK;
+}
+
 fm_status vulkan_descriptors_bind(vulkan *self, const fm_pipeline *pipeline, const fm_bind *binds,
                                   uint32_t count, fm_error *err)
 {
@@ -91,7 +102,9 @@ fm_status vulkan_descriptors_bind(vulkan *self, const fm_pipeline *pipeline, con
     VkWriteDescriptorSet writes[FM_MAX_BINDINGS];
     VkDescriptorSet set;
     uint32_t write_count = 0;
-    const fm_status status = allocate(&set, self, pipeline, err);
+    fm_status status = check_stores(binds, count, err);
+    if (status == FM_OK)
+        status = allocate(&set, self, pipeline, err);
     if (status != FM_OK)
         return status;
     for (uint32_t i = 0; i < count; i++) {

@@ -1,4 +1,5 @@
 #include <assert.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "device/vulkan/context.h"
@@ -222,6 +223,8 @@ fm_status vulkan_image_create(fm_image_resource **image, fm_device *device,
     made->width_px = desc->width_px;
     made->height_px = desc->height_px;
     made->owner = desc->owner;
+    made->can_store = (usage & VK_IMAGE_USAGE_STORAGE_BIT) != 0;
+    snprintf(made->name, sizeof made->name, "%s", desc->name);
     made->bytes = (uint64_t)desc->width_px * desc->height_px * layers * samples *
                   fm_format_bytes(desc->format);
     status = make(made, self, desc, usage, layers, err);
