@@ -209,16 +209,15 @@ static const fm_loop *loop_from(const fm_instance *instance, size_t first, const
 
 /* What ends a loop. */
 typedef struct loop_end {
-    bool is_counted;     /* else until `total` is zero; else the hook says */
+    bool is_counted;     /* never more than `count` iterations */
     uint32_t count, max; /* iterations */
-    int total;
+    int total;           /* until it is zero; -1: none. Neither: the hook says */
 } loop_end;
 
 static loop_end end_of(const fm_instance *instance, const fm_loop *loop)
 {
     return (loop_end){
-        .is_counted = loop->until_zero == NULL &&
-                      (loop->count > 0 || loop->count_per_k > 0 || loop->count_per_n > 0),
+        .is_counted = loop->count > 0 || loop->count_per_k > 0 || loop->count_per_n > 0,
         .count = loop->count + loop->count_per_k * instance->workload.k +
                  loop->count_per_n * instance->workload.n,
         .max = loop->max > 0 ? loop->max : LOOP_MAX_DEFAULT,
@@ -233,9 +232,11 @@ static bool goes_on(const fm_instance *instance, const loop_end *end, uint32_t i
         return false;
     if (next == FM_REPEAT)
         return true;
-    if (end->is_counted)
-        return i < end->count;
-    return i == 0 || (end->total >= 0 && instance->totals[end->total] != 0);
+    if (end->is_counted && i >= end->count)
+        return false;
+    if (end->total < 0)
+        return end->is_counted || i == 0;
+    return i == 0 || instance->totals[end->total] != 0;
 }
 
 static fm_status swap_copies(frame_run *frame)
