@@ -103,8 +103,8 @@ fm_status check_list(size_t *count, const char *const *first, size_t stride_byte
     return FM_OK;
 }
 
-fm_status check_known(size_t *index, const char *word, const char *field, const fm_names *names,
-                      fm_error *err)
+fm_status check_known(size_t *index, const char *word, const char *field,
+                      const fm_known_names *names, fm_error *err)
 {
     for (*index = 0; *index < names->count; ++*index)
         if (strcmp(word, names->items[*index]) == 0)
@@ -116,7 +116,7 @@ fm_status check_known(size_t *index, const char *word, const char *field, const 
                    names->what, nearest);
 }
 
-static fm_status take_names(fm_names *names, const char *const *first, size_t stride_bytes,
+static fm_status take_names(fm_known_names *names, const char *const *first, size_t stride_bytes,
                             size_t room, fm_error *err)
 {
     const fm_status status = check_list(&names->count, first, stride_bytes, room, names->list, err);
@@ -125,7 +125,7 @@ static fm_status take_names(fm_names *names, const char *const *first, size_t st
     return status;
 }
 
-static fm_status take_lists(fm_check *check, fm_error *err)
+static fm_status take_lists(fm_checked_method *check, fm_error *err)
 {
     const fm_method_desc *m = check->method;
     fm_status status =
@@ -198,11 +198,11 @@ static fm_status check_head(const fm_method_desc *m, fm_error *err)
 
 static fm_status check_all(const fm_method_desc *method, fm_error *err)
 {
-    fm_check check = { .method = method,
-                       .options = { .what = "option", .list = "options" },
-                       .resources = { .what = "resource", .list = "resources" },
-                       .totals = { .what = "total", .list = "totals" },
-                       .passes = { .what = "pass", .list = "passes" } };
+    fm_checked_method check = { .method = method,
+                                .options = { .what = "option", .list = "options" },
+                                .resources = { .what = "resource", .list = "resources" },
+                                .totals = { .what = "total", .list = "totals" },
+                                .passes = { .what = "pass", .list = "passes" } };
     if (method->abi != FM_ABI)
         return fm_fail(err, FM_INVALID,
                        "abi: the plugin has %" PRIu32 ", this program takes %u: build it again",

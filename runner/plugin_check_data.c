@@ -75,7 +75,7 @@ static fm_status check_option(const fm_option *option, define_text *defines, siz
     return status;
 }
 
-fm_status check_options(const fm_check *check, fm_error *err)
+fm_status check_options(const fm_checked_method *check, fm_error *err)
 {
     define_text defines[FM_MAX_OPTIONS * (FM_MAX_OPTION_VALUES + 1)];
     size_t define_count = 0;
@@ -88,7 +88,8 @@ fm_status check_options(const fm_check *check, fm_error *err)
 }
 
 /* The option that per_option multiplies by: whole numbers only. */
-static fm_status check_counting_option(const fm_check *check, const char *name, fm_error *err)
+static fm_status check_counting_option(const fm_checked_method *check, const char *name,
+                                       fm_error *err)
 {
     size_t index;
     uint64_t number;
@@ -113,7 +114,7 @@ static fm_status check_term(uint64_t factor, const char *name, const char *facto
     return FM_OK;
 }
 
-static fm_status check_extent(const fm_check *check, const fm_extent *e, fm_error *err)
+static fm_status check_extent(const fm_checked_method *check, const fm_extent *e, fm_error *err)
 {
     const uint64_t terms[] = { e->constant, e->per_pixel,    e->per_pixel_k, e->per_pixel_n,
                                e->per_tile, e->per_triangle, e->per_total,   e->per_option };
@@ -138,7 +139,7 @@ static fm_status check_extent(const fm_check *check, const fm_extent *e, fm_erro
     return status;
 }
 
-static fm_status check_sizing(const fm_check *check, const fm_resource *r, fm_error *err)
+static fm_status check_sizing(const fm_checked_method *check, const fm_resource *r, fm_error *err)
 {
     size_t index;
     const fm_status status = check_range(r->sizing, FM_SIZE_COUNT, "sizing", err);
@@ -159,7 +160,7 @@ static fm_status check_sizing(const fm_check *check, const fm_resource *r, fm_er
     return check_known(&index, r->overflow, "overflow", &check->totals, err);
 }
 
-static fm_status check_buffer(const fm_check *check, const fm_resource *r, fm_error *err)
+static fm_status check_buffer(const fm_checked_method *check, const fm_resource *r, fm_error *err)
 {
     fm_status status = check_range(r->element, FM_ELEMENT_COUNT, "element", err);
     if (status != FM_OK)
@@ -197,7 +198,8 @@ static fm_status check_image(const fm_resource *r, fm_error *err)
     return FM_OK;
 }
 
-static fm_status check_resource_name(const fm_check *check, const char *name, fm_error *err)
+static fm_status check_resource_name(const fm_checked_method *check, const char *name,
+                                     fm_error *err)
 {
     const size_t length = strlen(name);
     if (!check_is_word(name, "_") || length >= DEFINE_MAX_BYTES)
@@ -215,7 +217,7 @@ static fm_status check_resource_name(const fm_check *check, const char *name, fm
     return FM_OK;
 }
 
-static fm_status check_resource(const fm_check *check, const fm_resource *r, fm_error *err)
+static fm_status check_resource(const fm_checked_method *check, const fm_resource *r, fm_error *err)
 {
     fm_status status = check_resource_name(check, r->name, err);
     if (status == FM_OK)
@@ -225,7 +227,7 @@ static fm_status check_resource(const fm_check *check, const fm_resource *r, fm_
     return r->kind == FM_RESOURCE_BUFFER ? check_buffer(check, r, err) : check_image(r, err);
 }
 
-fm_status check_resources(const fm_check *check, fm_error *err)
+fm_status check_resources(const fm_checked_method *check, fm_error *err)
 {
     for (size_t i = 0; i < check->resources.count; i++) {
         const fm_resource *r = &check->method->resources[i];
@@ -236,7 +238,7 @@ fm_status check_resources(const fm_check *check, fm_error *err)
 }
 
 /* A total that is read from a buffer. */
-static fm_status check_source(const fm_check *check, const fm_total *total, fm_error *err)
+static fm_status check_source(const fm_checked_method *check, const fm_total *total, fm_error *err)
 {
     size_t index;
     const fm_status status =
@@ -257,7 +259,7 @@ static fm_status check_source(const fm_check *check, const fm_total *total, fm_e
     return FM_OK;
 }
 
-static fm_status check_total(const fm_check *check, const fm_total *total, fm_error *err)
+static fm_status check_total(const fm_checked_method *check, const fm_total *total, fm_error *err)
 {
     size_t index;
     if (!check_is_word(total->name, "_-"))
@@ -279,7 +281,7 @@ static fm_status check_total(const fm_check *check, const fm_total *total, fm_er
     return FM_OK;
 }
 
-fm_status check_totals(const fm_check *check, fm_error *err)
+fm_status check_totals(const fm_checked_method *check, fm_error *err)
 {
     for (size_t i = 0; i < check->totals.count; i++)
         if (check_total(check, &check->method->totals[i], err) != FM_OK)

@@ -24,7 +24,8 @@ static bool has_stepping_state(const fm_method_desc *method, const range *r)
     return false;
 }
 
-static fm_status check_loop(range *r, const fm_check *check, const fm_loop *loop, fm_error *err)
+static fm_status check_loop(range *r, const fm_checked_method *check, const fm_loop *loop,
+                            fm_error *err)
 {
     size_t index;
     if (loop->last == NULL)
@@ -65,7 +66,7 @@ static size_t loop_count(const fm_method_desc *method)
     return count;
 }
 
-fm_status check_loops(const fm_check *check, fm_error *err)
+fm_status check_loops(const fm_checked_method *check, fm_error *err)
 {
     range ranges[FM_MAX_LOOPS] = { 0 };
     const fm_loop *loops = check->method->loops;

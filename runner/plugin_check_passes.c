@@ -21,7 +21,7 @@ static const kind_rule kind_rules[] = {
 _Static_assert(sizeof kind_rules / sizeof kind_rules[0] == FM_PASS_KIND_COUNT, "one rule a kind");
 
 /* A pass that is not a scene pass defines a function of its name beside the resources. */
-static fm_status check_pass_name(const fm_check *check, const fm_pass *pass, fm_error *err)
+static fm_status check_pass_name(const fm_checked_method *check, const fm_pass *pass, fm_error *err)
 {
     char function[NAME_MAX_BYTES];
     const size_t length = strlen(pass->name);
@@ -68,7 +68,7 @@ static fm_status check_shader(const fm_pass *pass, fm_error *err)
     return FM_OK;
 }
 
-static const fm_resource *find_resource(const fm_check *check, const char *name)
+static const fm_resource *find_resource(const fm_checked_method *check, const char *name)
 {
     for (size_t i = 0; i < check->resources.count; i++)
         if (strcmp(name, check->resources.items[i]) == 0)
@@ -78,7 +78,7 @@ static const fm_resource *find_resource(const fm_check *check, const char *name)
 
 /* The resource that `name` ("fragments_previous") is the other copy of, whether it has two or not.
  */
-static const fm_resource *find_previous(const fm_check *check, const char *name)
+static const fm_resource *find_previous(const fm_checked_method *check, const char *name)
 {
     for (size_t i = 0; i < check->resources.count; i++) {
         const size_t length = strlen(check->resources.items[i]);
@@ -89,7 +89,7 @@ static const fm_resource *find_previous(const fm_check *check, const char *name)
     return NULL;
 }
 
-static fm_status check_access(const fm_check *check, const char *name, const char *field,
+static fm_status check_access(const fm_checked_method *check, const char *name, const char *field,
                               bool may_be_previous, fm_error *err)
 {
     size_t index;
@@ -107,8 +107,8 @@ static fm_status check_access(const fm_check *check, const char *name, const cha
 }
 
 /* A clear fills any image; a shader stores into colour images of one sample only. */
-static fm_status check_written(const fm_check *check, const fm_pass *pass, const char *name,
-                               fm_error *err)
+static fm_status check_written(const fm_checked_method *check, const fm_pass *pass,
+                               const char *name, fm_error *err)
 {
     const fm_resource *r = find_resource(check, name);
     if (r == NULL || r->kind != FM_RESOURCE_IMAGE || pass->kind == FM_PASS_CLEAR)
@@ -119,7 +119,7 @@ static fm_status check_written(const fm_check *check, const fm_pass *pass, const
     return FM_OK;
 }
 
-static fm_status check_accesses(const fm_check *check, const fm_pass *pass, fm_error *err)
+static fm_status check_accesses(const fm_checked_method *check, const fm_pass *pass, fm_error *err)
 {
     size_t read_count, write_count;
     fm_status status =
@@ -147,7 +147,7 @@ static fm_status check_accesses(const fm_check *check, const fm_pass *pass, fm_e
 }
 
 /* FM_INVALID unless name is an image of the wanted kind. */
-static fm_status check_attachment(const fm_resource **image, const fm_check *check,
+static fm_status check_attachment(const fm_resource **image, const fm_checked_method *check,
                                   const char *name, bool wants_depth, const char *field,
                                   fm_error *err)
 {
@@ -185,8 +185,8 @@ static fm_status check_samples(uint32_t *samples, const fm_resource *image, fm_e
     return FM_OK;
 }
 
-static fm_status check_target(const fm_check *check, const fm_target *target, uint32_t *samples,
-                              fm_error *err)
+static fm_status check_target(const fm_checked_method *check, const fm_target *target,
+                              uint32_t *samples, fm_error *err)
 {
     const fm_resource *image = NULL;
     fm_status status = check_attachment(&image, check, target->resource, false, "target", err);
@@ -202,8 +202,8 @@ static fm_status check_target(const fm_check *check, const fm_target *target, ui
     return check_samples(samples, image, err);
 }
 
-static fm_status check_targets(const fm_check *check, const fm_pass *pass, uint32_t *samples,
-                               fm_error *err)
+static fm_status check_targets(const fm_checked_method *check, const fm_pass *pass,
+                               uint32_t *samples, fm_error *err)
 {
     size_t count;
     fm_status status = check_list(&count, &pass->targets[0].resource, sizeof pass->targets[0],
@@ -234,7 +234,7 @@ static fm_status check_state_ranges(const fm_state *s, fm_error *err)
     return status;
 }
 
-static fm_status check_state(const fm_check *check, const fm_pass *pass, uint32_t *samples,
+static fm_status check_state(const fm_checked_method *check, const fm_pass *pass, uint32_t *samples,
                              fm_error *err)
 {
     const fm_state *s = &pass->state;
@@ -275,7 +275,7 @@ static fm_status check_flags(const fm_pass *pass, fm_error *err)
 }
 
 /* count_total and indirect: needed by one kind, forbidden to the others. */
-static fm_status check_counts(const fm_check *check, const fm_pass *pass, fm_error *err)
+static fm_status check_counts(const fm_checked_method *check, const fm_pass *pass, fm_error *err)
 {
     size_t index;
     if ((pass->kind == FM_PASS_TOTAL) != (pass->count_total != NULL))
@@ -297,7 +297,7 @@ static fm_status check_counts(const fm_check *check, const fm_pass *pass, fm_err
     return FM_OK;
 }
 
-static fm_status check_pass(const fm_check *check, const fm_pass *pass, fm_error *err)
+static fm_status check_pass(const fm_checked_method *check, const fm_pass *pass, fm_error *err)
 {
     uint32_t samples = 0;
     fm_status status = check_range(pass->kind, FM_PASS_KIND_COUNT, "kind", err);
@@ -318,7 +318,7 @@ static fm_status check_pass(const fm_check *check, const fm_pass *pass, fm_error
     return status;
 }
 
-fm_status check_passes(const fm_check *check, fm_error *err)
+fm_status check_passes(const fm_checked_method *check, fm_error *err)
 {
     bool emits = false;
     if (check->passes.count == 0)

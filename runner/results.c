@@ -200,13 +200,13 @@ static fm_status keep_sample(fm_case_result *result, uint32_t launch, const json
         return FM_OK;
     if (result->sample_count == result->sample_room) {
         const size_t room = result->sample_room > 0 ? 2 * result->sample_room : 64;
-        fm_sample *grown = reallocarray(result->samples, room, sizeof *grown);
+        fm_kept_sample *grown = reallocarray(result->samples, room, sizeof *grown);
         if (grown == NULL)
             return fm_fail(err, FM_NO_MEMORY, "no memory for %zu samples", room);
         result->samples = grown;
         result->sample_room = room;
     }
-    result->samples[result->sample_count++] = (fm_sample){
+    result->samples[result->sample_count++] = (fm_kept_sample){
         .value = json_number_value(json_object_get(sample, "value")),
         .launch = launch,
         .frame = (uint32_t)json_integer_value(json_object_get(sample, "frame")),

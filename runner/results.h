@@ -26,11 +26,11 @@ typedef enum fm_sample_metric {
     FM_SAMPLE_METRIC_COUNT
 } fm_sample_metric;
 
-typedef struct fm_sample {
+typedef struct fm_kept_sample {
     double value;
     uint32_t launch, frame;
     fm_sample_metric metric;
-} fm_sample;
+} fm_kept_sample;
 
 typedef struct fm_launch_state {
     uint32_t begins; /* since the last end or stop */
@@ -43,7 +43,7 @@ typedef struct fm_case_result {
     char message[2048];        /* of that status */
     fm_launch_state *launches; /* [plan->launches] */
     uint32_t done;             /* launches that ended */
-    fm_sample *samples;
+    fm_kept_sample *samples;
     size_t sample_count, sample_room;
     json_t *metrics;  /* of the checked launch; NULL before it */
     json_t *modelled; /* the same */

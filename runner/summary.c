@@ -28,7 +28,7 @@ typedef struct summary_column {
     int argument;
 } summary_column;
 
-static bool is_used(const row_state *row, const fm_sample *sample)
+static bool is_used(const row_state *row, const fm_kept_sample *sample)
 {
     const uint32_t frames = row->results->plan->frames;
     return sample->frame >= frames ||
@@ -40,7 +40,7 @@ static size_t gather(const row_state *row, fm_sample_metric metric, uint32_t lau
 {
     size_t count = 0;
     for (size_t i = 0; i < row->result->sample_count; i++) {
-        const fm_sample *sample = &row->result->samples[i];
+        const fm_kept_sample *sample = &row->result->samples[i];
         if (sample->metric != metric || (launch != UINT32_MAX && sample->launch != launch) ||
             !is_used(row, sample))
             continue;
@@ -298,7 +298,7 @@ static double fastest_canary(const fm_results *results, const char *device)
         if (strcmp(results->plan->cases[i].device, device) != 0)
             continue;
         for (size_t j = 0; j < results->cases[i].sample_count; j++) {
-            const fm_sample *sample = &results->cases[i].samples[j];
+            const fm_kept_sample *sample = &results->cases[i].samples[j];
             if (sample->metric == FM_SAMPLE_CANARY_NS && sample->value > 0.0)
                 fastest = fmin(fastest, sample->value);
         }
@@ -313,7 +313,7 @@ static void find_off_clock(bool *is_off_clock, const row_state *row)
         return;
     const double limit = clock_slack * fastest_canary(row->results, row->measured->device);
     for (size_t i = 0; i < row->result->sample_count; i++) {
-        const fm_sample *sample = &row->result->samples[i];
+        const fm_kept_sample *sample = &row->result->samples[i];
         if (sample->metric == FM_SAMPLE_CANARY_NS && sample->value > limit &&
             sample->frame < frames)
             is_off_clock[(size_t)sample->launch * frames + sample->frame] = true;
