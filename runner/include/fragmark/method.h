@@ -324,8 +324,8 @@ typedef struct fm_pass {
 } fm_pass;
 
 /* Passes first..last (by name) run again and again: `count` times (constant + per k + per n), or
- * until a total is zero, which is read after each iteration; with both, whichever comes first; never
- * more than `max`. Ping-pong resources swap after each iteration. */
+ * until a total is zero, which is read after each iteration; with both, whichever comes first;
+ * never more than `max`. Ping-pong resources swap after each iteration. */
 typedef struct fm_loop {
     const char *first, *last;
     uint32_t count, count_per_k, count_per_n;
