@@ -29,6 +29,12 @@ static uint64_t z_buffer(const workload *w)
     return 8 * w->pixels;
 }
 
+/* A colour and two depths, whatever n and k are. */
+static uint64_t peeling(const workload *w)
+{
+    return 12 * w->pixels;
+}
+
 /* Heads, nodes of fragment and link, two counters. The pool starts with a node a pixel. */
 static uint64_t linked_list(const workload *w)
 {
@@ -42,6 +48,7 @@ static const struct formula {
 } formulas[] = {
     { "kplus-array", kplus }, { "kplus-heap", kplus },  { "kb", k_buffer },
     { "ab-array", a_buffer }, { "z-buffer", z_buffer }, { "ab-ll", linked_list },
+    { "f2b", peeling },       { "f2b-k", peeling },
 };
 
 static void expect_formula(const char *method, const workload *w, const fm_measurement *m)
