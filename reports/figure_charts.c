@@ -295,9 +295,10 @@ static double add_stack(job *at, bar_place *place, const fm_case_row *result)
 {
     double top = 0.0;
     for (size_t i = 0; i <= at->from->parts.count; i++) {
-        double value = i < at->from->parts.count
-                           ? result_files_metric(at->results, result, at->from->parts.names[i])
-                           : result->frame_ms - top; /* own passes, and what medians of parts leave */
+        double value =
+            i < at->from->parts.count
+                ? result_files_metric(at->results, result, at->from->parts.names[i])
+                : result->frame_ms - top; /* own passes, and what medians of parts leave */
         if (!isfinite(value) || value <= (i < at->from->parts.count ? 0.0 : 0.02 * top))
             continue;
         fm_bar *bar = chart_add_bar(at->chart);
