@@ -50,31 +50,56 @@ static uint64_t option_number(const fm_workload *workload, const char *name)
     return value != NULL && text_to_u64(&number, value) ? number : 0;
 }
 
+/* Sizes beyond 64 bits stay at UINT64_MAX, which no device has. */
+static uint64_t sum_of(uint64_t a, uint64_t b)
+{
+    uint64_t sum;
+    return __builtin_add_overflow(a, b, &sum) ? UINT64_MAX : sum;
+}
+
+static uint64_t product_of(uint64_t a, uint64_t b)
+{
+    uint64_t product;
+    return __builtin_mul_overflow(a, b, &product) ? UINT64_MAX : product;
+}
+
 /* The extent's formula; a named total that is not known counts as 0. */
 static uint64_t extent_elements(const fm_instance *instance, const fm_extent *extent)
 {
     const fm_workload *workload = &instance->workload;
     const uint64_t pixels = (uint64_t)workload->width_px * workload->height_px;
     const int total = total_index(instance->method, extent->total);
-    return extent->constant + extent->per_pixel * pixels +
-           extent->per_pixel_k * pixels * workload->k + extent->per_pixel_n * pixels * workload->n +
-           extent->per_tile * tiles(workload) + extent->per_triangle * workload->triangles +
-           extent->per_total * (total >= 0 ? instance->totals[total] : 0) +
-           extent->per_option * option_number(workload, extent->option);
+    const uint64_t terms[] = {
+        product_of(extent->per_pixel, pixels),
+        product_of(product_of(extent->per_pixel_k, pixels), workload->k),
+        product_of(product_of(extent->per_pixel_n, pixels), workload->n),
+        product_of(extent->per_tile, tiles(workload)),
+        product_of(extent->per_triangle, workload->triangles),
+        product_of(extent->per_total, total >= 0 ? instance->totals[total] : 0),
+        product_of(extent->per_option, option_number(workload, extent->option)),
+    };
+    uint64_t elements = extent->constant;
+    for (size_t i = 0; i < sizeof terms / sizeof terms[0]; i++)
+        elements = sum_of(elements, terms[i]);
+    return elements;
 }
 
 uint64_t resource_elements(const fm_instance *instance, size_t index)
 {
-    return extent_elements(instance, &instance->method->resources[index].extent) +
-           instance->grown[index];
+    return sum_of(extent_elements(instance, &instance->method->resources[index].extent),
+                  instance->grown[index]);
 }
 
 static fm_status create_buffer(fm_instance *instance, fm_slot *slot, const fm_resource *resource,
                                uint64_t elements, fm_error *err)
 {
     const uint64_t length = elements > 0 ? elements : 1; /* an empty scene still binds something */
+    const uint32_t element_bytes = fm_element_bytes(resource->element);
+    if (length > (UINT64_MAX >> 1) / element_bytes)
+        return fm_fail(err, FM_NO_MEMORY, "buffer '%s': its extent is over 2^63 bytes",
+                       resource->name);
     const fm_buffer_desc desc = { .name = resource->name,
-                                  .bytes = length * fm_element_bytes(resource->element),
+                                  .bytes = length * element_bytes,
                                   .owner = FM_OWNER_METHOD,
                                   .is_indirect = true,
                                   .host_reads = resource->extent.constant > 0 };
@@ -186,7 +211,7 @@ fm_status resources_grow(bool *grew, fm_instance *instance, size_t total, fm_err
         if (resource->sizing != FM_SIZE_GROW || strcmp(resource->overflow, name) != 0 ||
             instance->totals[total] == 0)
             continue;
-        instance->grown[i] += instance->totals[total];
+        instance->grown[i] = sum_of(instance->grown[i], instance->totals[total]);
         *grew = true;
         status = create_resource(instance, i, err);
     }
@@ -249,10 +274,10 @@ uint64_t instance_bytes_predicted(const fm_instance *instance)
         const uint64_t one =
             resource->kind == FM_RESOURCE_IMAGE
                 ? image_bytes(instance, resource)
-                : (elements > 0 ? elements : 1) * fm_element_bytes(resource->element);
-        bytes += one * (resource->ping_pong ? 2 : 1);
+                : product_of(elements > 0 ? elements : 1, fm_element_bytes(resource->element));
+        bytes = sum_of(bytes, product_of(one, resource->ping_pong ? 2 : 1));
     }
-    return bytes + locks;
+    return sum_of(bytes, locks);
 }
 
 uint64_t instance_bytes_used(const fm_instance *instance)

@@ -8,7 +8,9 @@
 #include "text.h"
 
 enum { DEFINE_MAX_BYTES = 64, MAX_IMAGE_LAYERS = 2048, MAX_IMAGE_SAMPLES = 16 };
-static const uint64_t max_extent = UINT64_C(1) << 40;
+static const uint64_t max_constant = UINT64_C(1) << 40;
+/* Elements of a pixel, tile, triangle, ...: what multiplies a count of the scene. */
+static const uint64_t max_factor = UINT64_C(1) << 12;
 
 /* NAME_VALUE. */
 typedef char define_text[2 * DEFINE_MAX_BYTES];
@@ -114,20 +116,32 @@ static fm_status check_term(uint64_t factor, const char *name, const char *facto
     return FM_OK;
 }
 
+static fm_status check_factors(const uint64_t *factors, size_t count, const char *field,
+                               fm_error *err)
+{
+    for (size_t i = 0; i < count; i++)
+        if (factors[i] > max_factor)
+            return fm_fail(err, FM_INVALID, "%s: a factor of %" PRIu64 ", %" PRIu64 " at most",
+                           field, factors[i], max_factor);
+    return FM_OK;
+}
+
 static fm_status check_extent(const fm_checked_method *check, const fm_extent *e, fm_error *err)
 {
-    const uint64_t terms[] = { e->constant, e->per_pixel,    e->per_pixel_k, e->per_pixel_n,
-                               e->per_tile, e->per_triangle, e->per_total,   e->per_option };
-    bool is_zero = true;
-    for (size_t i = 0; i < sizeof terms / sizeof terms[0]; i++) {
-        is_zero = is_zero && terms[i] == 0;
-        if (terms[i] > max_extent)
-            return fm_fail(err, FM_INVALID, "extent: a term of %" PRIu64 ", %" PRIu64 " at most",
-                           terms[i], max_extent);
-    }
+    const uint64_t factors[] = { e->per_pixel,    e->per_pixel_k, e->per_pixel_n, e->per_tile,
+                                 e->per_triangle, e->per_total,   e->per_option };
+    const size_t count = sizeof factors / sizeof factors[0];
+    bool is_zero = e->constant == 0;
+    for (size_t i = 0; i < count; i++)
+        is_zero = is_zero && factors[i] == 0;
     if (is_zero)
         return fm_fail(err, FM_INVALID, "extent: all terms are zero: a zero-sized buffer");
-    fm_status status = check_term(e->per_total, e->total, "per_total", "total", err);
+    if (e->constant > max_constant)
+        return fm_fail(err, FM_INVALID, "extent.constant: %" PRIu64 ", %" PRIu64 " at most",
+                       e->constant, max_constant);
+    fm_status status = check_factors(factors, count, "extent", err);
+    if (status == FM_OK)
+        status = check_term(e->per_total, e->total, "per_total", "total", err);
     if (status == FM_OK)
         status = check_term(e->per_option, e->option, "per_option", "option", err);
     if (status == FM_OK && e->total != NULL) {
@@ -189,6 +203,9 @@ static fm_status check_image(const fm_resource *r, fm_error *err)
     if ((r->samples & (r->samples - 1)) != 0 || r->samples > MAX_IMAGE_SAMPLES)
         return fm_fail(err, FM_INVALID, "samples: %" PRIu32 ": a power of two, %d at most",
                        r->samples, MAX_IMAGE_SAMPLES);
+    if (r->samples_per_k > MAX_IMAGE_SAMPLES)
+        return fm_fail(err, FM_INVALID, "samples_per_k: %" PRIu32 ", %d at most", r->samples_per_k,
+                       MAX_IMAGE_SAMPLES);
     if (r->layers > MAX_IMAGE_LAYERS || r->layers_per_k > MAX_IMAGE_LAYERS)
         return fm_fail(err, FM_INVALID, "layers: %d at most", MAX_IMAGE_LAYERS);
     if (!(r->clear_depth >= 0.0f && r->clear_depth <= 1.0f))
@@ -219,9 +236,12 @@ static fm_status check_resource_name(const fm_checked_method *check, const char 
 
 static fm_status check_resource(const fm_checked_method *check, const fm_resource *r, fm_error *err)
 {
+    const uint64_t used[] = { r->used.per_pixel, r->used.per_fragment, r->used.per_kept };
     fm_status status = check_resource_name(check, r->name, err);
     if (status == FM_OK)
         status = check_range(r->kind, FM_RESOURCE_KIND_COUNT, "kind", err);
+    if (status == FM_OK)
+        status = check_factors(used, sizeof used / sizeof used[0], "used", err);
     if (status != FM_OK)
         return status;
     return r->kind == FM_RESOURCE_BUFFER ? check_buffer(check, r, err) : check_image(r, err);

@@ -169,24 +169,33 @@ static bool is_integer_format(fm_format format)
     return format == FM_FORMAT_R32UI || format == FM_FORMAT_RG32UI || format == FM_FORMAT_RGBA32UI;
 }
 
-static uint32_t sample_count(const fm_resource *image)
+/* Samples of an image: constant + per_k * k. */
+typedef struct sample_formula {
+    uint32_t constant, per_k; /* both 0: none yet */
+} sample_formula;
+
+static sample_formula samples_of(const fm_resource *image)
 {
-    return image->samples == 0 ? 1 : image->samples;
+    const bool is_default = image->samples == 0 && image->samples_per_k == 0;
+    return (sample_formula){ is_default ? 1 : image->samples, image->samples_per_k };
 }
 
-/* *samples is 0 before the first attachment. */
-static fm_status check_samples(uint32_t *samples, const fm_resource *image, fm_error *err)
+/* All attachments of a pass have the same samples, whatever k is. */
+static fm_status check_samples(sample_formula *samples, const fm_resource *image, fm_error *err)
 {
-    if (*samples != 0 && *samples != sample_count(image))
+    const sample_formula own = samples_of(image);
+    const bool is_first = samples->constant == 0 && samples->per_k == 0;
+    if (!is_first && (samples->constant != own.constant || samples->per_k != own.per_k))
         return fm_fail(err, FM_INVALID,
-                       "target '%s': %" PRIu32 " samples, the others have %" PRIu32, image->name,
-                       sample_count(image), *samples);
-    *samples = sample_count(image);
+                       "target '%s': %" PRIu32 " + %" PRIu32 " k samples, the others have %" PRIu32
+                       " + %" PRIu32 " k",
+                       image->name, own.constant, own.per_k, samples->constant, samples->per_k);
+    *samples = own;
     return FM_OK;
 }
 
 static fm_status check_target(const fm_checked_method *check, const fm_target *target,
-                              uint32_t *samples, fm_error *err)
+                              sample_formula *samples, fm_error *err)
 {
     const fm_resource *image = NULL;
     fm_status status = check_attachment(&image, check, target->resource, false, "target", err);
@@ -203,7 +212,7 @@ static fm_status check_target(const fm_checked_method *check, const fm_target *t
 }
 
 static fm_status check_targets(const fm_checked_method *check, const fm_pass *pass,
-                               uint32_t *samples, fm_error *err)
+                               sample_formula *samples, fm_error *err)
 {
     size_t count;
     fm_status status = check_list(&count, &pass->targets[0].resource, sizeof pass->targets[0],
@@ -234,8 +243,8 @@ static fm_status check_state_ranges(const fm_state *s, fm_error *err)
     return status;
 }
 
-static fm_status check_state(const fm_checked_method *check, const fm_pass *pass, uint32_t *samples,
-                             fm_error *err)
+static fm_status check_state(const fm_checked_method *check, const fm_pass *pass,
+                             sample_formula *samples, fm_error *err)
 {
     const fm_state *s = &pass->state;
     const fm_resource *image = NULL;
@@ -299,7 +308,7 @@ static fm_status check_counts(const fm_checked_method *check, const fm_pass *pas
 
 static fm_status check_pass(const fm_checked_method *check, const fm_pass *pass, fm_error *err)
 {
-    uint32_t samples = 0;
+    sample_formula samples = { 0 };
     fm_status status = check_range(pass->kind, FM_PASS_KIND_COUNT, "kind", err);
     if (status == FM_OK)
         status = check_pass_name(check, pass, err);

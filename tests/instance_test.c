@@ -49,12 +49,11 @@ static void remove_files(const char *folder)
     rmdir(folder);
 }
 
-/* Runs one frame of the method on an empty scene and returns result[0]. */
-static uint32_t run_frame(fm_device *device, const fm_method_desc *method, fm_buffers buffers)
+/* Runs one frame of the method on an empty scene and reads result[0]. */
+static fm_status try_frame(uint32_t *word, fm_device *device, const fm_method_desc *method,
+                           fm_buffers buffers, fm_error *err)
 {
     char folder[32] = "/tmp/fm-instance-XXXXXX";
-    uint32_t word = 0;
-    fm_error err = { 0 };
     scene_kit kit;
     kit_scene scene;
     fm_stage *stage = NULL;
@@ -68,22 +67,29 @@ static uint32_t run_frame(fm_device *device, const fm_method_desc *method, fm_bu
     const fm_instance_desc desc = { .method = method,
                                     .folders = { folder, kit.plugins.common_folder },
                                     .settings = &settings };
-    fm_status status = stage_create(&stage, device, scene.scene, scene.truth, FM_FEED_RASTER, &err);
+    fm_status status = stage_create(&stage, device, scene.scene, scene.truth, FM_FEED_RASTER, err);
     fm_instance_desc full = desc;
     full.stage = stage;
     if (status == FM_OK)
-        status = instance_create(&instance, &full, &err);
+        status = instance_create(&instance, &full, err);
     if (status == FM_OK)
-        status = instance_frame(&result, instance, NULL, &err);
+        status = instance_frame(&result, instance, NULL, err);
     if (status == FM_OK)
         status = device->ops->buffer_read(device, instance_slot(instance, "result")->buffer, 0,
-                                          &word, sizeof word, &err);
+                                          word, sizeof *word, err);
     instance_destroy(instance);
     stage_destroy(stage);
     kit_scene_close(&scene);
     kit_close(&kit);
     remove_files(folder);
-    if (status != FM_OK)
+    return status;
+}
+
+static uint32_t run_frame(fm_device *device, const fm_method_desc *method, fm_buffers buffers)
+{
+    uint32_t word = 0;
+    fm_error err = { 0 };
+    if (try_frame(&word, device, method, buffers, &err) != FM_OK)
         fail_msg("%s", err.message);
     return word;
 }
@@ -162,6 +168,21 @@ static void an_iteration_reads_what_the_last_one_wrote_by_address(void **state)
     assert_int_equal(run_frame(*state, &ping_pong, FM_BUFFERS_ADDRESS), 5);
 }
 
+/* 3 x 2 pixels: wrapped to 64 bits these would be 2 and 12 bytes. */
+static void an_extent_beyond_64_bits_is_no_memory(void **state)
+{
+    static const fm_extent extents[] = { { .per_pixel = (UINT64_C(1) << 63) / 3 + 1 },
+                                         { .constant = UINT64_MAX, .per_pixel = 1 } };
+    for (size_t i = 0; i < sizeof extents / sizeof extents[0]; i++) {
+        uint32_t word = 0;
+        fm_error err = { 0 };
+        fm_method_desc method = ping_pong;
+        method.resources[1].extent = extents[i];
+        assert_int_equal(try_frame(&word, *state, &method, FM_BUFFERS_AUTO, &err), FM_NO_MEMORY);
+        assert_non_null(strstr(err.message, "'value'"));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -169,6 +190,7 @@ int main(void)
         ON_VULKAN_AND_OSMESA(loops_that_start_together_nest),
         ON_VULKAN_AND_OSMESA(an_iteration_reads_what_the_last_one_wrote),
         ON_VULKAN_AND_OSMESA(an_iteration_reads_what_the_last_one_wrote_by_address),
+        ON_VULKAN_AND_OSMESA(an_extent_beyond_64_bits_is_no_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

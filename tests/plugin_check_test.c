@@ -181,7 +181,9 @@ static void plugin_check_rejects_bad_buffers(void **state)
     REFUSES(m.resources[POOL].element = FM_ELEMENT_UINT64, "FM_FEATURE_INT64_ATOMICS");
     REFUSES(m.resources[POOL].format = FM_FORMAT_R32F, "a buffer has no format");
     REFUSES(m.resources[POOL].extent.constant = 0, "zero-sized buffer");
-    REFUSES(m.resources[POOL].extent.per_pixel = UINT64_MAX, "at most");
+    REFUSES(m.resources[POOL].extent.per_pixel = 4097, "4096 at most");
+    REFUSES(m.resources[POOL].extent.constant = UINT64_MAX, "at most");
+    REFUSES(m.resources[POOL].used.per_fragment = 4097, "4096 at most");
     REFUSES(m.resources[POOL].extent.per_total = 1, "needs extent.total");
     REFUSES(m.resources[POOL].extent.total = "stored", "needs extent.per_total");
     REFUSES(m.resources[FRAGMENTS].extent.total = "sorted", "no such total; nearest is 'stored'");
@@ -203,6 +205,7 @@ static void plugin_check_rejects_bad_images(void **state)
     REFUSES(m.resources[COLOUR].format = FM_FORMAT_COUNT, "format");
     REFUSES(m.resources[COLOUR].samples = 3, "power of two");
     REFUSES(m.resources[COLOUR].samples = 64, "power of two");
+    REFUSES(m.resources[COLOUR].samples_per_k = 17, "samples_per_k");
     REFUSES(m.resources[COLOUR].layers = 4096, "layers");
     REFUSES(m.resources[COLOUR].extent.per_pixel = 1, "viewport's size");
     REFUSES(m.resources[DEPTH].clear_depth = 1.5f, "clear_depth");
@@ -269,6 +272,7 @@ static void plugin_check_rejects_bad_attachments(void **state)
     REFUSES(m.passes[STORE].targets[0].load = FM_LOAD_COUNT, "load");
     REFUSES(m.resources[COLOUR].format = FM_FORMAT_R32UI, "do not blend");
     REFUSES(m.resources[COLOUR].samples = 1, "samples");
+    REFUSES(m.resources[COLOUR].samples_per_k = 4, "4 + 0 k samples, the others have 4 + 4 k");
     REFUSES(m.passes[SPREAD].targets[0].resource = "colour", "has none");
     REFUSES(m.passes[STORE].state.depth_stencil = "colour", "needs a depth format");
     REFUSES(m.passes[STORE].state.depth_stencil = NULL, "need depth_stencil");
