@@ -18,6 +18,12 @@ static uint64_t k_buffer(const workload *w)
     return 8 * w->k * w->pixels;
 }
 
+/* k_buffer and a lock. */
+static uint64_t locked_k_buffer(const workload *w)
+{
+    return (8 * w->k + 4) * w->pixels;
+}
+
 static uint64_t a_buffer(const workload *w)
 {
     return (8 * w->n + 4) * w->pixels;
@@ -35,6 +41,12 @@ static uint64_t peeling(const workload *w)
     return 12 * w->pixels;
 }
 
+/* Front, back and two intervals. */
+static uint64_t dual_peeling(const workload *w)
+{
+    return 24 * w->pixels;
+}
+
 /* Heads, nodes of fragment and link, two counters. The pool starts with a node a pixel. */
 static uint64_t linked_list(const workload *w)
 {
@@ -46,9 +58,10 @@ static const struct formula {
     const char *method;
     uint64_t (*bytes)(const workload *);
 } formulas[] = {
-    { "kplus-array", kplus }, { "kplus-heap", kplus },  { "kb", k_buffer },
-    { "ab-array", a_buffer }, { "z-buffer", z_buffer }, { "ab-ll", linked_list },
-    { "f2b", peeling },       { "f2b-k", peeling },
+    { "kplus-array", kplus },     { "kplus-heap", kplus },  { "kb", k_buffer },
+    { "kb-ps", locked_k_buffer }, { "ab-array", a_buffer }, { "z-buffer", z_buffer },
+    { "ab-ll", linked_list },     { "f2b", peeling },       { "f2b-k", peeling },
+    { "dual", dual_peeling },
 };
 
 static void expect_formula(const char *method, const workload *w, const fm_measurement *m)
