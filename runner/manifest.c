@@ -5,11 +5,8 @@
 #include <string.h>
 #include <time.h>
 
+#include "git_commit.h"
 #include "machine.h"
-
-#ifndef FM_GIT_COMMIT
-#define FM_GIT_COMMIT "unknown"
-#endif
 
 static const char *const family_name[] = {
     [FM_FAMILY_CONTROL] = "control",
