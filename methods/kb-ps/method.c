@@ -1,0 +1,27 @@
+#include "fragmark/method.h"
+
+const fm_method_desc fm_method = {
+    .abi = FM_ABI,
+    .size_bytes = sizeof(fm_method_desc),
+    .id = "kb-ps",
+    .title = "KB-PS",
+    .citation = "Salvi 2013, Pixel Synchronization, SIGGRAPH course",
+    .version = "1",
+    .traits = FM_TRAIT_EXACT | FM_TRAIT_BOUNDED,
+    .keeps = FM_KEEPS_K_NEAREST,
+    .family = FM_FAMILY_K_BUFFER,
+    .marker = FM_MARKER_SQUARE,
+    .options = { { .name = "layout", .values = { "pixel", "layer" },
+                   .help = "a pixel's fragments side by side, or the i-th of all pixels" } },
+    .resources = {
+        { .name = "fragments", .element = FM_ELEMENT_UVEC2, .extent = { .per_pixel_k = 1 },
+          .used = { .per_kept = 1 } },
+    },
+    .passes = {
+        { .name = "clear", .kind = FM_PASS_PIXELS, .shader = "kb/clear.glsl",
+          .writes = { "fragments" } },
+        { .name = "store", .shader = "store.glsl", .exclusive = true, .writes = { "fragments" } },
+        { .name = "resolve", .kind = FM_PASS_PIXELS, .shader = "kb/resolve.glsl", .emits = true,
+          .reads = { "fragments" } },
+    },
+};
