@@ -1,3 +1,4 @@
+#include <inttypes.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>
@@ -47,7 +48,7 @@ const fm_key fm_keys[] = {
       .fallback = "constant", .help = "alpha itself, or up to it" },
     { "alpha", FM_KEY_REAL, ANY, AT(alpha), .low = 0, .high = 1, .fallback = "0.3",
       .help = "opacity of a fragment" },
-    { "seed", FM_KEY_UINT64, ANY, AT(seed), .low = 0, .high = 18446744073709551615.0,
+    { "seed", FM_KEY_UINT64, ANY, AT(seed), .low = 0, .high = (double)FM_KEY_UINT64_MAX,
       .fallback = "1", .help = "of everything random" },
     { "mesh", FM_KEY_TEXT, MESH, AT(mesh), .fallback = "",
       .help = "OBJ, PLY or 3DS file, beside the file that names it" },
@@ -132,7 +133,7 @@ void key_domain(char text[FM_TEXT_MAX], const fm_key *key)
         snprintf(text, FM_TEXT_MAX, "%s..%s", low, high);
         return;
     case FM_KEY_UINT64:
-        snprintf(text, FM_TEXT_MAX, "0..18446744073709551615");
+        snprintf(text, FM_TEXT_MAX, "%s..%" PRIu64, low, FM_KEY_UINT64_MAX);
         return;
     case FM_KEY_VECTOR:
         snprintf(text, FM_TEXT_MAX, "\"x y z\", each %s..%s", low, high);

@@ -42,7 +42,8 @@ static fm_status set_uint(fm_settings *settings, const fm_key *key, const char *
         memcpy(field(settings, key), &key->absent, sizeof key->absent);
         return FM_OK;
     }
-    if (!text_to_u64(&value, text) || (double)value < key->low || (double)value > key->high)
+    if (!text_to_u64(&value, text) || value > FM_KEY_UINT64_MAX || (double)value < key->low ||
+        (double)value > key->high)
         return illegal(key, text, err);
     const uint32_t narrow = (uint32_t)value;
     if (key->type == FM_KEY_UINT)

@@ -88,9 +88,12 @@ typedef struct fm_settings {
     uint32_t launches, frames, warmup;
 } fm_settings;
 
+/* JSON's integers have a sign. */
+#define FM_KEY_UINT64_MAX ((uint64_t)INT64_MAX)
+
 typedef enum fm_key_type {
-    FM_KEY_UINT, /* uint32_t */
-    FM_KEY_UINT64,
+    FM_KEY_UINT,   /* uint32_t */
+    FM_KEY_UINT64, /* uint64_t, FM_KEY_UINT64_MAX at most */
     FM_KEY_REAL,   /* double */
     FM_KEY_VECTOR, /* double[3], "x y z" or a YAML sequence */
     FM_KEY_ENUM,   /* int-sized enum, by the names in `values` */

@@ -84,7 +84,8 @@ static void settings_set_refuses_and_says_what_is_legal(void **state)
         { "pixel_density", "0", "pixel_density: '0'" },
         { "pixel_density", "1.01", "..1" },
         { "alpha", "-0.1", "0..1" },
-        { "seed", "18446744073709551616", "0..18446744073709551615" },
+        { "seed", "9223372036854775808", "0..9223372036854775807" },
+        { "seed", "18446744073709551616", "0..9223372036854775807" },
         { "order", "sorted", "random|random-cell|ascending" },
         { "eye", "1 2", "\"x y z\"" },
         { "eye", "1 2 3 4", "\"x y z\"" },
@@ -110,7 +111,7 @@ static void settings_text_is_taken_back_by_set(void **state)
     set(&settings, "order", "cell-major");
     set(&settings, "pixel_density", "0.3333333333333333");
     set(&settings, "eye", "1 -2.5 0.1");
-    set(&settings, "seed", "18446744073709551615");
+    set(&settings, "seed", "9223372036854775807");
     assert_int_equal(settings_finish(&settings, &err), FM_OK);
     for (size_t i = 0; i < fm_key_count; i++) {
         settings_text(text, &settings, &fm_keys[i]);

@@ -81,8 +81,8 @@ static error_t parse_selection(int key, char *text, struct argp_state *state)
         return 0;
     case KEY_SEED:
         arguments->has_seed = true;
-        if (!text_to_u64(&arguments->seed, text))
-            argp_error(state, "--seed %s: not a whole number", text);
+        if (!text_to_u64(&arguments->seed, text) || arguments->seed > FM_KEY_UINT64_MAX)
+            argp_error(state, "--seed %s: no whole number of 63 bits", text);
         return 0;
     default:
         return ARGP_ERR_UNKNOWN;
