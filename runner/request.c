@@ -28,14 +28,14 @@ static json_t *options_json(const fm_case *of)
 fm_status request_write(const char *path, const fm_request *request, fm_error *err)
 {
     const fm_case *of = request->of;
-    json_t *object = json_pack(
-        "{s:s, s:s, s:s, s:s, s:s, s:b, s:b, s:s, s:o, s:o, s:s, s:I, s:i, s:b, s:s}", "job",
-        request->is_truth_job ? "truth" : "measure", "plugin", request->plugin, "floor",
-        request->floor, "common", request->common, "device", of->device, "validation",
-        (int)request->validation, "no_timers", (int)request->no_timers, "feed", of->feed,
-        "settings", settings_json(&of->settings), "options", options_json(of), "truth",
-        request->truth, "seed", (json_int_t)request->seed, "launch", (int)request->launch, "check",
-        (int)request->check, "image", request->image);
+    json_t *object =
+        json_pack("{s:s, s:s, s:s, s:s, s:s, s:b, s:b, s:s, s:o, s:o, s:s, s:i, s:b, s:s}", "job",
+                  request->is_truth_job ? "truth" : "measure", "plugin", request->plugin, "floor",
+                  request->floor, "common", request->common, "device", of->device, "validation",
+                  (int)request->validation, "no_timers", (int)request->no_timers, "feed", of->feed,
+                  "settings", settings_json(&of->settings), "options", options_json(of), "truth",
+                  request->truth, "launch", (int)request->launch, "check", (int)request->check,
+                  "image", request->image);
     char *text = object != NULL ? json_dumps(object, JSON_INDENT(1)) : NULL;
     const fm_status status =
         text != NULL ? text_write_file(path, text, strlen(text), err)

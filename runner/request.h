@@ -10,7 +10,6 @@ typedef struct fm_request {
     const char *truth;                   /* path of the truth file */
     const char *image;                   /* path; "": none */
     bool is_truth_job, check, validation, no_timers;
-    uint64_t seed;
     uint32_t launch;
 } fm_request;
 

@@ -284,7 +284,6 @@ static fm_status capture_truth(run_state *run, size_t job, fm_error *err)
         .is_truth_job = true,
         .validation = run->desc->validation,
         .no_timers = run->desc->no_timers,
-        .seed = run->plan->seed,
     };
     status = ask(&outcome, run, name, &request, err);
     if (status != FM_OK || outcome.is_interrupted)
@@ -325,7 +324,6 @@ static fm_status measure(run_state *run, size_t case_index, uint32_t launch, fm_
         .check = launch == 0,
         .validation = run->desc->validation,
         .no_timers = run->desc->no_timers,
-        .seed = run->plan->seed,
         .launch = launch,
     };
     status = ask(&outcome, run, of->id, &request, err);

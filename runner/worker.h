@@ -8,7 +8,7 @@
  *     "feed": "raster",
  *     "settings": { "k": "8", ... }      every key of fm_keys, as text
  *     "options": { "layout": "layer" },  the method's own, only those given
- *     "truth": "path of the truth file", "seed": 1, "launch": 0,
+ *     "truth": "path of the truth file", "launch": 0,
  *     "check": true,                     capture and compare all fragments
  *     "image": "path to write the image to, or empty" }
  * The result, written at the end; a worker that dies leaves none:
