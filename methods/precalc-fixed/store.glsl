@@ -1,0 +1,2 @@
+#include "precalc-fixed/address.glsl"
+#include "ab-array/store.glsl"
