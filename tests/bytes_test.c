@@ -47,6 +47,17 @@ static uint64_t dual_peeling(const workload *w)
     return 24 * w->pixels;
 }
 
+/* k samples of a fragment, a depth that nobody needs, and a stencil. */
+static uint64_t routed(const workload *w)
+{
+    return (8 + 4 + 1) * w->k * w->pixels;
+}
+
+static uint64_t counted(const workload *w)
+{
+    return (8 * w->k + 4) * w->pixels;
+}
+
 /* Heads, nodes of fragment and link, two counters. The pool starts with a node a pixel. */
 static uint64_t linked_list(const workload *w)
 {
@@ -58,10 +69,11 @@ static const struct formula {
     const char *method;
     uint64_t (*bytes)(const workload *);
 } formulas[] = {
-    { "kplus-array", kplus },     { "kplus-heap", kplus },  { "kb", k_buffer },
-    { "kb-ps", locked_k_buffer }, { "ab-array", a_buffer }, { "z-buffer", z_buffer },
-    { "ab-ll", linked_list },     { "f2b", peeling },       { "f2b-k", peeling },
-    { "dual", dual_peeling },
+    { "kplus-array", kplus },     { "kplus-heap", kplus },      { "kb", k_buffer },
+    { "kb-mdt64", k_buffer },     { "kb-ps", locked_k_buffer }, { "ab-array", a_buffer },
+    { "z-buffer", z_buffer },     { "ab-ll", linked_list },     { "f2b", peeling },
+    { "f2b-k", peeling },         { "dual", dual_peeling },     { "kb-sr", routed },
+    { "kb-sr-counter", counted },
 };
 
 static void expect_formula(const char *method, const workload *w, const fm_measurement *m)

@@ -390,11 +390,12 @@ static void expect_own_options(kit_scene *scene, const fm_method_desc *method, u
         }
 }
 
-/* What a method without a lock gives on compute feeds is chance. */
+/* What a method without a lock gives on compute feeds is chance, and so is the order of arrival. */
 static bool is_comparable(const fm_method_desc *method, uint32_t feed)
 {
     return (kit_feeds(method) & feed) != 0 &&
-           (feed == FM_FEED_RASTER || (method->traits & FM_TRAIT_RACY) == 0);
+           (feed == FM_FEED_RASTER ||
+            (method->traits & (FM_TRAIT_RACY | FM_TRAIT_SORTED_INPUT)) == 0);
 }
 
 static void options_change_no_fragment(void **state)

@@ -1,0 +1,28 @@
+#include "fragmark/method.h"
+
+const fm_method_desc fm_method = {
+    .abi = FM_ABI,
+    .size_bytes = sizeof(fm_method_desc),
+    .id = "kb-sr-counter",
+    .title = "KB-SR, counter",
+    .citation = "after Bavoil, Myers 2008, Deferred Rendering using a Stencil Routed K-Buffer, ShaderX6",
+    .version = "1",
+    .traits = FM_TRAIT_BOUNDED | FM_TRAIT_SORTED_INPUT | FM_TRAIT_SORTS_IN_RESOLVE,
+    .keeps = FM_KEEPS_K_NEAREST,
+    .family = FM_FAMILY_K_BUFFER,
+    .marker = FM_MARKER_SQUARE,
+    .dashed = true,
+    .options = { { .name = "layout", .values = { "pixel", "layer" },
+                   .help = "a pixel's fragments side by side, or the i-th of all pixels" } },
+    .resources = {
+        { .name = "arrivals", .extent = { .per_pixel = 1 }, .used = { .per_pixel = 1 } },
+        { .name = "fragments", .element = FM_ELEMENT_UVEC2, .extent = { .per_pixel_k = 1 },
+          .used = { .per_kept = 1 } },
+    },
+    .passes = {
+        { .name = "clear", .kind = FM_PASS_CLEAR, .writes = { "arrivals" } },
+        { .name = "store", .shader = "store.glsl", .writes = { "arrivals", "fragments" } },
+        { .name = "resolve", .kind = FM_PASS_PIXELS, .shader = "resolve.glsl", .emits = true,
+          .reads = { "arrivals", "fragments" } },
+    },
+};

@@ -1,0 +1,10 @@
+#include "common/array.glsl"
+
+void store(uvec2 pixel, float depth, uint colour)
+{
+    // Fragments of a pixel collide here; the counter gives each a number of its own, its sample. As
+    // with the stencil, arrivals after the k-th find none: that is the method, not a loss of storage.
+    uint arrival = atomicAdd(arrivals[fm_pixel_index(pixel)], 1u);
+    if (arrival < K)
+        fragments[array_slot(pixel, arrival, K)] = fm_pack(depth, colour);
+}
