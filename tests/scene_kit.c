@@ -34,6 +34,22 @@ uint32_t kit_feeds(const fm_method_desc *method)
     return (method->feeds != 0 ? method->feeds : FM_FEEDS_FRAGMENTS) & FM_FEEDS_FRAGMENTS;
 }
 
+bool kit_has(const scene_kit *kit, const char *method)
+{
+    const bool has = plugin_list_find(&kit->plugins, method) != NULL;
+    if (!has)
+        print_message("skipped: %s: plugin not found\n", method);
+    return has;
+}
+
+bool kit_is_right(const fm_method_desc *method, bool any_ties)
+{
+    const uint32_t other = FM_TRAIT_SORTED_INPUT | FM_TRAIT_RACY | FM_TRAIT_APPROXIMATE;
+    const uint32_t traits = method->traits;
+    return (traits & FM_TRAIT_EXACT) != 0 ||
+           (!any_ties && (traits & FM_TRAIT_LOSES_TIES) != 0 && (traits & other) == 0);
+}
+
 /* Sets keys; what is no key becomes a choice of the method's, if there is room for choices. */
 static void apply(fm_settings *settings, fm_choice *choices, size_t *count, const char *texts)
 {
@@ -154,6 +170,8 @@ fm_status kit_try(fm_measurement *measurement, kit_scene *scene, const kit_way *
                                    .frames = 1,
                                    .warmup = 1,
                                    .check = check };
+    if (status == FM_OK && scene->told_n != 0)
+        stage->n = scene->told_n;
     if (status == FM_OK)
         status = measure_case(measurement, &desc, err);
     stage_destroy(stage);

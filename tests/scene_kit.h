@@ -22,6 +22,7 @@ typedef struct kit_scene {
     fm_scene *scene;
     fm_truth *truth;
     char truth_path[32];
+    uint32_t told_n; /* the most fragments of a pixel as methods are told; 0: as it is */
 } kit_scene;
 
 /* Every test runs on a fresh device of each kind; *state is the device. */
@@ -38,6 +39,11 @@ void kit_close(scene_kit *kit);
 const fm_method_desc *kit_method(const scene_kit *kit, size_t index);
 /* Feeds that the method takes, as FM_FEED_* bits. */
 uint32_t kit_feeds(const fm_method_desc *method);
+
+/* Whether the method is installed; what is not is printed as skipped. */
+bool kit_has(const scene_kit *kit, const char *method);
+/* Hands over exactly the wanted fragments: always, or where no two depths of a pixel are equal. */
+bool kit_is_right(const fm_method_desc *method, bool any_ties);
 
 /* texts: "width_px=5 n=3 ..."; every key of fm_keys; k is 8 unless given. */
 void kit_scene_open(kit_scene *scene, scene_kit *kit, const char *texts);
