@@ -74,10 +74,12 @@ void launcher_close(const fm_launcher *launcher)
 json_t *launch_result(const char *status, const char *message)
 {
     /* Logs may hold bytes that are no UTF-8, which JSON refuses. */
-    json_t *text = json_string(message);
-    if (text == NULL)
-        text = json_string("(the message is not text)");
-    return json_pack("{s:s, s:o}", "status", status, "message", text);
+    char *copy = strdup(message);
+    if (copy != NULL)
+        text_make_utf8(copy);
+    json_t *result = json_pack("{s:s, s:s}", "status", status, "message", copy != NULL ? copy : "");
+    free(copy);
+    return result;
 }
 
 static double now_seconds(void)

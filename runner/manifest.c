@@ -103,6 +103,18 @@ static json_t *methods_json(const fm_results *results)
     return methods;
 }
 
+/* What a user's shell hands over may hold any bytes; JSON does not. */
+static json_t *text_json(const char *text)
+{
+    char *copy = strdup(text);
+    if (copy == NULL)
+        return NULL;
+    text_make_utf8(copy);
+    json_t *json = json_string(copy);
+    free(copy);
+    return json;
+}
+
 static json_t *scene_json(const fm_case *of)
 {
     char hash[17], value[FM_PATH_MAX_BYTES];
@@ -115,7 +127,8 @@ static json_t *scene_json(const fm_case *of)
         settings_text(value, &of->settings, key);
         json_object_set_new(settings, key->name, json_string(value));
     }
-    return json_pack("{s:s, s:s, s:o}", "name", of->scene, "hash", hash, "settings", settings);
+    return json_pack("{s:o, s:s, s:o}", "name", text_json(of->scene), "hash", hash, "settings",
+                     settings);
 }
 
 /* By hash: each distinct scene once. */
@@ -162,14 +175,14 @@ static json_t *manifest_json(const fm_manifest_desc *desc)
     gmtime_r(&now, &utc);
     strftime(ended, sizeof ended, "%Y-%m-%dT%H:%M:%SZ", &utc);
     return json_pack(
-        "{s:i, s:s, s:s, s:s, s:s?, s:I, s:i, s:i, s:i, s:b, s:b, s:s, s:s?, s:o, s:o, s:o, s:o, "
+        "{s:i, s:s, s:s, s:s, s:o?, s:I, s:i, s:i, s:i, s:b, s:b, s:s, s:s?, s:o, s:o, s:o, s:o, "
         "s:o, s:o}",
         "schema", 1, "fragmark", FM_VERSION, "git_commit", FM_GIT_COMMIT, "run_id", results->run_id,
-        "command", desc->run->command, "seed", (json_int_t)plan->seed, "launches",
-        (int)plan->launches, "frames", (int)plan->frames, "warmup", (int)plan->warmup, "validation",
-        (int)desc->run->validation, "no_timers", (int)desc->run->no_timers, "started",
-        desc->started, "ended", desc->is_ended ? ended : NULL, "figures",
-        figures_json(desc->run->figures), "machine", machine_json(results), "devices",
+        "command", desc->run->command != NULL ? text_json(desc->run->command) : NULL, "seed",
+        (json_int_t)plan->seed, "launches", (int)plan->launches, "frames", (int)plan->frames,
+        "warmup", (int)plan->warmup, "validation", (int)desc->run->validation, "no_timers",
+        (int)desc->run->no_timers, "started", desc->started, "ended", desc->is_ended ? ended : NULL,
+        "figures", figures_json(desc->run->figures), "machine", machine_json(results), "devices",
         devices_json(results), "methods", methods_json(results), "scenes", scenes_json(results),
         "modelled", modelled_json(results));
 }

@@ -160,6 +160,8 @@ static fm_status check_text(const char *text, const char *field, fm_error *err)
 {
     if (text == NULL || *text == '\0')
         return fm_fail(err, FM_INVALID, "%s: missing", field);
+    if (!text_is_utf8(text))
+        return fm_fail(err, FM_INVALID, "%s: not UTF-8", field);
     return FM_OK;
 }
 

@@ -61,6 +61,8 @@ static fm_status check_option(const fm_option *option, define_text *defines, siz
         return fm_fail(err, FM_INVALID, "needs lower-case letters, digits, '-' and '_'");
     if (key_find(option->name) != NULL)
         return fm_fail(err, FM_INVALID, "the runner has a key of this name");
+    if (option->help != NULL && !text_is_utf8(option->help))
+        return fm_fail(err, FM_INVALID, "help: not UTF-8");
     fm_status status = check_list(&value_count, option->values, sizeof option->values[0],
                                   FM_MAX_OPTION_VALUES, "values", err);
     if (status != FM_OK)

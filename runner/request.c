@@ -39,7 +39,8 @@ fm_status request_write(const char *path, const fm_request *request, fm_error *e
     char *text = object != NULL ? json_dumps(object, JSON_INDENT(1)) : NULL;
     const fm_status status =
         text != NULL ? text_write_file(path, text, strlen(text), err)
-                     : fm_fail(err, FM_INVALID, "%s: cannot be put together as JSON", path);
+                     : fm_fail(err, FM_INVALID,
+                               "%s: not written: no memory, or a path that is not UTF-8", path);
     free(text);
     json_decref(object);
     return status;

@@ -109,6 +109,8 @@ static fm_status set_text(fm_settings *settings, const fm_key *key, const char *
     for (const char *c = text; *c != '\0'; c++)
         if ((unsigned char)*c < ' ')
             return fm_fail(err, FM_INVALID, "%s: control characters", key->name);
+    if (!text_is_utf8(text))
+        return fm_fail(err, FM_INVALID, "%s: not UTF-8", key->name);
     /* Nothing of a longer text before stays behind: settings compare as bytes. */
     memset(field(settings, key), 0, FM_PATH_MAX_BYTES);
     memcpy(field(settings, key), text, length);

@@ -232,6 +232,44 @@ const char *text_nearest(const char *word, const char *const *names, size_t coun
     return nearest;
 }
 
+/* Bytes of the character that text starts with; 0: none of UTF-8. */
+static size_t utf8_bytes(const char *text)
+{
+    static const uint32_t least[] = { 0, 0, 0x80, 0x800, 0x10000 }; /* by bytes: else overlong */
+    const unsigned char lead = (unsigned char)*text;
+    const size_t count = lead < 0x80 ? 1 : lead < 0xC0 ? 0 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : 4;
+    uint32_t code = count < 2 ? lead : lead & (0xFFu >> (count + 1));
+    for (size_t i = 1; i < count; i++) {
+        const unsigned char next = (unsigned char)text[i];
+        if ((next & 0xC0) != 0x80)
+            return 0;
+        code = code << 6 | (next & 0x3Fu);
+    }
+    const bool is_surrogate = code >= 0xD800 && code < 0xE000;
+    return code < least[count] || is_surrogate || code > 0x10FFFF || lead > 0xF4 ? 0 : count;
+}
+
+bool text_is_utf8(const char *text)
+{
+    while (*text != '\0') {
+        const size_t count = utf8_bytes(text);
+        if (count == 0)
+            return false;
+        text += count;
+    }
+    return true;
+}
+
+void text_make_utf8(char *text)
+{
+    while (*text != '\0') {
+        const size_t count = utf8_bytes(text);
+        if (count == 0)
+            *text = '?';
+        text += count > 0 ? count : 1;
+    }
+}
+
 bool text_to_u64(uint64_t *value, const char *text)
 {
     uint64_t sum = 0;

@@ -38,6 +38,11 @@ fm_status text_write_file(const char *path, const char *bytes, size_t count, fm_
 /* `name` as seen from the folder of `file`: absolute names stay. false: longer than the room. */
 bool text_path_beside(char *path, size_t room_bytes, const char *file, const char *name);
 
+/* JSON and HTML take UTF-8 only: no surrogates, nothing overlong. */
+bool text_is_utf8(const char *text);
+/* Each byte that keeps it from being UTF-8 becomes '?'. */
+void text_make_utf8(char *text);
+
 /* The name with the least edit distance; NULL if none is within half of word's length. */
 const char *text_nearest(const char *word, const char *const *names, size_t count);
 

@@ -127,6 +127,9 @@ static void plugin_check_rejects_bad_heads(void **state)
             "63 letters");
     REFUSES(m.title = NULL, "title: missing");
     REFUSES(m.citation = "", "citation: missing");
+    REFUSES(m.citation = "Andr\xE9, 2007", "citation: not UTF-8");
+    REFUSES(m.title = "\xC3", "title: not UTF-8");
+    REFUSES(m.options[0].help = "\xFF", "help: not UTF-8");
     REFUSES(m.version = NULL, "version: missing");
     REFUSES(m.traits = 1u << 31, "traits: unknown bits 0x80000000");
     REFUSES(m.traits = FM_TRAIT_EXACT | FM_TRAIT_APPROXIMATE, "exclude each other");

@@ -59,7 +59,7 @@ static fm_status run_in(fm_run_result *result, const fake_plan *fake, uint32_t t
     char directory[96];
     snprintf(directory, sizeof directory, "%s/out", fake->folder);
     const fm_run_desc desc = { .directory = directory,
-                               .command = "fragmark run",
+                               .command = "fragmark run -o caf\xE9", /* Latin-1 */
                                .timeout_s = timeout_s,
                                .worker = fake->worker };
     return run_cases(result, &fake->plan, &fake->list, &desc, err);
@@ -112,6 +112,17 @@ static void run_measures_each_case_in_each_round(void **state)
     char path[128];
     snprintf(path, sizeof path, "%s/out/truth", fake.folder);
     assert_int_not_equal(access(path, F_OK), 0); /* done: no truth is left */
+    fake_close(&fake);
+}
+
+static void run_writes_a_command_that_is_not_utf8(void **state)
+{
+    (void)state;
+    static const char *const ids[] = { "a", NULL };
+    fake_plan fake;
+    open_with_worker(&fake, ids, 1);
+    run_well(&fake);
+    assert_in_file(&fake, "out/manifest.json", "\"fragmark run -o caf?\"");
     fake_close(&fake);
 }
 
@@ -337,6 +348,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(run_measures_each_case_in_each_round),
+        cmocka_unit_test(run_writes_a_command_that_is_not_utf8),
         cmocka_unit_test(run_interleaves_the_cases),
         cmocka_unit_test(run_records_every_way_a_worker_can_fail),
         cmocka_unit_test(run_takes_missing_support_as_a_result),

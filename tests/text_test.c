@@ -128,6 +128,37 @@ static void text_nearest_needs_half_of_the_word(void **state)
     assert_null(text_nearest("x", names, 0));
 }
 
+static void text_is_utf8_knows_what_json_refuses(void **state)
+{
+    (void)state;
+    static const char *const good[] = { "",       "a",          "\u00e9",
+                                        "\u20ac", "\U0001F600", "\xF4\x8F\xBF\xBF" };
+    static const char *const bad[] = { "\x80",
+                                       "\xC3",
+                                       "a\xE9",
+                                       "\xC0\xAF",
+                                       "\xE0\x80\xAF",
+                                       "\xED\xA0\x80",
+                                       "\xE2\x82",
+                                       "\xF4\x90\x80\x80",
+                                       "\xF8\x88\x80\x80\x80",
+                                       "\xF0\x80\x80\x80",
+                                       "\xFF" };
+    for (size_t i = 0; i < sizeof good / sizeof good[0]; i++)
+        assert_true(text_is_utf8(good[i]));
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++)
+        if (text_is_utf8(bad[i]))
+            fail_msg("bad[%zu] is taken", i);
+}
+
+static void text_make_utf8_replaces_only_bad_bytes(void **state)
+{
+    (void)state;
+    char text[] = "caf\xE9 caf\u00e9 \xE2\x82";
+    text_make_utf8(text);
+    assert_string_equal(text, "caf? caf\u00e9 ??");
+}
+
 static void text_to_u64_takes_whole_texts_in_range(void **state)
 {
     (void)state;
@@ -269,6 +300,8 @@ int main(void)
         cmocka_unit_test(text_read_file_refuses_what_is_above_the_limit),
         cmocka_unit_test(text_files_name_the_path_that_fails),
         cmocka_unit_test(text_nearest_needs_half_of_the_word),
+        cmocka_unit_test(text_is_utf8_knows_what_json_refuses),
+        cmocka_unit_test(text_make_utf8_replaces_only_bad_bytes),
         cmocka_unit_test(text_to_u64_takes_whole_texts_in_range),
         cmocka_unit_test(text_to_double_takes_finite_decimals),
         cmocka_unit_test(text_from_double_is_short_and_exact),
