@@ -45,9 +45,9 @@ static void k_buffer_errs_in_most_pixels_when_neighbours_contend(void **state)
     kit_close(&kit);
 }
 
-static void locked_methods_are_exact_when_neighbours_contend(void **state)
+static void synchronised_methods_are_exact_when_neighbours_contend(void **state)
 {
-    static const char *const methods[] = { "kplus-array", "kplus-heap", "kb-ps" };
+    static const char *const methods[] = { "kplus-array", "kplus-heap", "kb-ps", "kb-mdt64" };
     scene_kit kit;
     kit_scene scene;
     kit_open(&kit, lavapipe_of(state));
@@ -78,7 +78,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(k_buffer_errs_in_most_pixels_when_neighbours_contend,
                                         open_vulkan, close_opened),
-        cmocka_unit_test_setup_teardown(locked_methods_are_exact_when_neighbours_contend,
+        cmocka_unit_test_setup_teardown(synchronised_methods_are_exact_when_neighbours_contend,
                                         open_vulkan, close_opened),
         cmocka_unit_test_setup_teardown(no_method_errs_on_raster, open_vulkan, close_opened),
     };
