@@ -262,7 +262,8 @@ static const char *result_fault(const json_t *result)
     const json_t *metrics = json_object_get(result, "metrics");
     if (!json_is_object(result))
         return "not an object";
-    if (!case_status_parse(&status, json_string_value(json_object_get(result, "status"))))
+    if (!case_status_parse(&status, json_string_value(json_object_get(result, "status"))) ||
+        status == FM_CASE_SKIPPED)
         return "'status' is none of the known words";
     if (metrics != NULL && !json_is_object(metrics))
         return "'metrics' is not an object";

@@ -3,6 +3,7 @@
 #include <string.h>
 
 static const char *const status_name[] = {
+    [FM_CASE_SKIPPED] = "skipped",
     [FM_CASE_OK] = "ok",
     [FM_CASE_NOT_SUPPORTED] = "not_supported",
     [FM_CASE_WRONG_IMAGE] = "wrong_image",
@@ -33,5 +34,5 @@ bool case_status_parse(fm_case_status *status, const char *name)
 
 bool case_status_continues(fm_case_status status)
 {
-    return status == FM_CASE_OK || status == FM_CASE_WRONG_IMAGE;
+    return status == FM_CASE_SKIPPED || status == FM_CASE_OK || status == FM_CASE_WRONG_IMAGE;
 }

@@ -6,6 +6,7 @@
 
 /* In rising order of harm: a case has the worst status of its launches. */
 typedef enum fm_case_status {
+    FM_CASE_SKIPPED, /* no launch yet: the run was stopped before its turn */
     FM_CASE_OK,
     FM_CASE_NOT_SUPPORTED, /* a result: this device, or the method, cannot do it */
     FM_CASE_WRONG_IMAGE,   /* a method declared exact was not */
@@ -20,7 +21,7 @@ typedef enum fm_case_status {
 const char *case_status_name(fm_case_status status);
 /* false: no such word, or NULL. */
 bool case_status_parse(fm_case_status *status, const char *name);
-/* Launched again in the next round? Only what measured something is. */
+/* Launched in the next round? Only what measured something, or had no turn yet, is. */
 bool case_status_continues(fm_case_status status);
 
 #endif

@@ -64,14 +64,13 @@ static fm_status path_in(char path[FM_PATH_MAX_BYTES], const char *directory, co
     return FM_OK;
 }
 
-static void mark_skipped(fm_case_result *result, const fm_case *skipped)
+static void mark_refused(fm_case_result *result, const fm_case *of)
 {
     static const char refused[] = "plugin_error: ";
     const size_t length = sizeof refused - 1;
-    const bool is_refused = strncmp(skipped->skip, refused, length) == 0;
-    result->status = is_refused ? FM_CASE_PLUGIN_ERROR : FM_CASE_NOT_SUPPORTED;
-    snprintf(result->message, sizeof result->message, "%s",
-             skipped->skip + (is_refused ? length : 0));
+    const bool is_plugin = strncmp(of->skip, refused, length) == 0;
+    result->status = is_plugin ? FM_CASE_PLUGIN_ERROR : FM_CASE_NOT_SUPPORTED;
+    snprintf(result->message, sizeof result->message, "%s", of->skip + (is_plugin ? length : 0));
 }
 
 static fm_status create_cases(fm_results *results, fm_error *err)
@@ -85,7 +84,10 @@ static fm_status create_cases(fm_results *results, fm_error *err)
         if (results->cases[i].launches == NULL)
             return fm_fail(err, FM_NO_MEMORY, "no memory for %u launches", plan->launches);
         if (plan->cases[i].skip[0] != '\0')
-            mark_skipped(&results->cases[i], &plan->cases[i]);
+            mark_refused(&results->cases[i], &plan->cases[i]);
+        else
+            snprintf(results->cases[i].message, sizeof results->cases[i].message,
+                     "the run was stopped before its turn");
     }
     return FM_OK;
 }
@@ -326,16 +328,16 @@ bool results_is_finished(const fm_results *results, size_t case_index)
     return kept->done == results->plan->launches || !case_status_continues(kept->status);
 }
 
-fm_status results_write_summary(fm_results *results, bool again, fm_error *err)
+fm_status results_write_summary(fm_results *results, bool is_end, fm_error *err)
 {
     fm_text all = { 0 };
     fm_status status = FM_OK;
     summary_header(&all);
     for (size_t i = 0; i < results->plan->count && status == FM_OK; i++) {
         fm_case_result *kept = &results->cases[i];
-        if (kept->done == 0 && results->plan->cases[i].skip[0] == '\0')
+        if (kept->status == FM_CASE_SKIPPED && !is_end)
             continue;
-        if (again || kept->row == NULL) {
+        if (is_end || kept->row == NULL) {
             fm_text row = { 0 };
             summary_row(&row, results, i);
             if (row.failed)

@@ -61,8 +61,8 @@ typedef struct fm_results {
     int samples_fd;
 } fm_results;
 
-/* plan and plugins are borrowed for the life of the results. Skipped cases have their status at
- * once. samples.csv is begun anew. */
+/* plan and plugins are borrowed for the life of the results. Cases that are not to be launched
+ * have their status at once. samples.csv is begun anew. */
 fm_status results_create(fm_results **results, const fm_plan *plan, const fm_plugin_list *plugins,
                          const char *directory, const char *run_id, fm_error *err);
 void results_destroy(fm_results *results);
@@ -74,9 +74,10 @@ fm_status results_add(fm_results *results, size_t case_index, uint32_t launch, c
 /* No further launch of this case is wanted. */
 bool results_is_finished(const fm_results *results, size_t case_index);
 
-/* Writes summary.csv: a row for each case that was launched or skipped. `again` renews all rows,
- * because slow clocks are known only at the end. */
-fm_status results_write_summary(fm_results *results, bool again, fm_error *err);
+/* Writes summary.csv: a row for each case that was launched or is not to be. At the end of a run
+ * all rows are renewed, because slow clocks are known only then, and cases that had no turn get
+ * one, with status skipped. */
+fm_status results_write_summary(fm_results *results, bool is_end, fm_error *err);
 
 /* Adds text as an RFC 4180 field. */
 void csv_add(fm_text *text, const char *field);

@@ -246,11 +246,14 @@ static void run_stops_on_sigterm_and_continues(void **state)
     fm_run_result result = run_well(&fake);
     assert_int_equal(result.stop_signal, SIGTERM);
     assert_true(result.skipped > 0);
+    assert_int_equal(count_in_file(&fake, "out/summary.csv", "\n1,"), 2);
+    assert_int_equal(count_in_file(&fake, "out/summary.csv", ",skipped,the run was stopped"), 2);
     assert_in_file(&fake, "out/manifest.json", "\"ended\": null");
     assert_int_equal(count_in_file(&fake, "out/journal.jsonl", "\"stop\""), 1);
     result = run_well(&fake);
     assert_int_equal(result.stop_signal, 0);
     assert_int_equal(result.ok, 2);
+    assert_int_equal(count_in_file(&fake, "out/summary.csv", "skipped"), 0);
     assert_int_equal(count_in_file(&fake, "out/samples.csv", "frame_ms"), 8);
     assert_int_equal(count_in_file(&fake, "calls", "a 0"), 1);
     fake_close(&fake);

@@ -36,7 +36,8 @@ static void add_reason(fm_text_list *reasons, size_t *left_out, char *line)
     char reason[REASON_BYTES], *fields[COLUMNS_READ];
     for (size_t i = 0; i < COLUMNS_READ; i++)
         fields[i] = next_field(&line);
-    if (strcmp(fields[COLUMN_STATUS], "ok") == 0 || fields[COLUMN_MESSAGE][0] == '\0')
+    if (strcmp(fields[COLUMN_STATUS], "ok") == 0 || strcmp(fields[COLUMN_STATUS], "skipped") == 0 ||
+        fields[COLUMN_MESSAGE][0] == '\0')
         return;
     snprintf(reason, sizeof reason, "%s: %s: %s", fields[COLUMN_METHOD], fields[COLUMN_STATUS],
              fields[COLUMN_MESSAGE]);
