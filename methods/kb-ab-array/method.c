@@ -1,0 +1,29 @@
+#include "fragmark/method.h"
+
+const fm_method_desc fm_method = {
+    .abi = FM_ABI,
+    .size_bytes = sizeof(fm_method_desc),
+    .id = "kb-ab-array",
+    .title = "KB-AB-Array",
+    .citation = "Vasilakis, Fudos 2014, k+-buffer, doi:10.1145/2556700.2556702; store: Liu 2010",
+    .version = "1",
+    .traits = FM_TRAIT_EXACT | FM_TRAIT_SORTS_IN_RESOLVE,
+    .keeps = FM_KEEPS_K_NEAREST,
+    .family = FM_FAMILY_K_BUFFER,
+    .marker = FM_MARKER_SQUARE,
+    .dashed = true,
+    .options = { { .name = "layout", .values = { "pixel", "layer" },
+                   .help = "a pixel's fragments side by side, or the i-th of all pixels" } },
+    .resources = {
+        { .name = "counters", .extent = { .per_pixel = 1 }, .used = { .per_pixel = 1 } },
+        { .name = "fragments", .element = FM_ELEMENT_UVEC2, .extent = { .per_pixel_n = 1 },
+          .used = { .per_fragment = 1 } },
+    },
+    .passes = {
+        { .name = "clear", .kind = FM_PASS_PIXELS, .shader = "ab-array/clear.glsl",
+          .writes = { "counters" } },
+        { .name = "store", .shader = "ab-array/store.glsl", .writes = { "counters", "fragments" } },
+        { .name = "resolve", .kind = FM_PASS_PIXELS, .shader = "resolve.glsl", .emits = true,
+          .reads = { "counters", "fragments" } },
+    },
+};

@@ -1,0 +1,10 @@
+#include "common/array.glsl"
+#include "common/select.glsl"
+
+void resolve(uvec2 pixel)
+{
+    uint count = min(counters[fm_pixel_index(pixel)], N);
+    FM_LOOP for (uint i = 0u; i < count; ++i)
+        select_nearest(fragments[array_slot(pixel, i, N)]);
+    emit_selected(pixel);
+}
