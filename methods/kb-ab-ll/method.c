@@ -1,0 +1,44 @@
+#include "fragmark/method.h"
+
+enum { NODE_WORDS = 3, NODES_PER_PIXEL = 1 };
+
+/* The pool starts with a node a pixel and grows to one a fragment. */
+static uint64_t bytes(const fm_workload *workload)
+{
+    const uint64_t pixels = (uint64_t)workload->width_px * workload->height_px;
+    const uint64_t initial = pixels * NODES_PER_PIXEL;
+    const uint64_t nodes = workload->fragments > initial ? workload->fragments : initial;
+    return 4 * (pixels + 2 + NODE_WORDS * nodes);
+}
+
+const fm_method_desc fm_method = {
+    .abi = FM_ABI,
+    .size_bytes = sizeof(fm_method_desc),
+    .id = "kb-ab-ll",
+    .title = "KB-AB-LL",
+    .citation = "Yu, Yang, Hensley, Harada, Yu 2012, A framework for rendering complex "
+                "scattering effects on hair, I3D; store: Yang 2010",
+    .version = "1",
+    .traits = FM_TRAIT_EXACT | FM_TRAIT_SORTS_IN_RESOLVE,
+    .keeps = FM_KEEPS_K_NEAREST,
+    .family = FM_FAMILY_K_BUFFER,
+    .marker = FM_MARKER_CIRCLE,
+    .dashed = true,
+    .resources = {
+        { .name = "heads", .extent = { .per_pixel = 1 }, .used = { .per_pixel = 1 } },
+        { .name = "allocated", .extent = { .constant = 2 } }, /* words taken; words without room */
+        { .name = "nodes", .extent = { .per_pixel = NODE_WORDS * NODES_PER_PIXEL },
+          .sizing = FM_SIZE_GROW, .overflow = "overflow",
+          .used = { .per_fragment = NODE_WORDS } },
+    },
+    .totals = { { .name = "overflow", .resource = "allocated", .index = 1, .pass = "store" } },
+    .passes = {
+        { .name = "clear", .kind = FM_PASS_PIXELS, .shader = "ab-ll/clear.glsl",
+          .writes = { "heads", "allocated" } },
+        { .name = "store", .shader = "ab-ll/store.glsl",
+          .writes = { "heads", "allocated", "nodes" } },
+        { .name = "resolve", .kind = FM_PASS_PIXELS, .shader = "resolve.glsl", .emits = true,
+          .reads = { "heads", "nodes" } },
+    },
+    .bytes = bytes,
+};
