@@ -16,6 +16,9 @@ void fm_emit(uvec2 pixel, int rank, float depth, uint colour)
     if (slot < uint(FM_CAPTURE_SLOTS))
         fm_capture[local * uint(FM_CAPTURE_SLOTS) + slot] = uvec2(floatBitsToUint(depth), colour);
 }
+void fm_blended(uvec2 pixel, vec4 colour)
+{
+}
 void fm_emit_begin(uvec2 pixel)
 {
 }
@@ -40,6 +43,12 @@ void fm_emit(uvec2 pixel, int rank, float depth, uint colour)
     }
 #endif
     fm_front += c * (1.0 - fm_front.a);
+}
+
+// An approximation's one colour: it has no fragments, and the checked build finds none.
+void fm_blended(uvec2 pixel, vec4 colour)
+{
+    fm_front += colour * (1.0 - fm_front.a);
 }
 
 // Compositing outlives a pass: a looped method goes on where the last iteration ended.

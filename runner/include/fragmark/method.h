@@ -27,6 +27,8 @@
  *   other passes  define  void NAME(uint index): a tile, a triangle, or a unit of a total
  *   emit          fm_emit(pixel, rank, depth, colour) hands over one fragment: rank counts from the
  *                 front (0, 1, ...) in front-to-back order, or from the back (-1, -2, ...)
+ *                 fm_blended(pixel, colour), instead, hands over one vec4 (premultiplied) where an
+ *                 approximation has a colour and no fragments: the image is then its only error
  *   losses        fm_lost(pixel) counts a fragment that found no room
  *   events        fm_culled(), fm_locked() count in the checked build only
  *   loops         fm_iteration is the number of the running iteration, from 0
