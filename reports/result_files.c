@@ -172,6 +172,51 @@ static uint32_t find_case(const fm_result_files *results, const char *id, uint32
     return UINT32_MAX; /* a case that has no row yet, of a run that was stopped */
 }
 
+/* A frame of a launch of a case. */
+typedef struct frame_name {
+    uint32_t of;
+    const char *launch, *frame; /* as texts */
+} frame_name;
+
+static int compare_frames(const void *left, const void *right)
+{
+    const frame_name *a = left, *b = right;
+    if (a->of != b->of)
+        return a->of < b->of ? -1 : 1;
+    const int order = strcmp(a->launch, b->launch);
+    return order != 0 ? order : strcmp(a->frame, b->frame);
+}
+
+static frame_name frame_of(const fm_result_files *results, size_t row, size_t launch, size_t frame)
+{
+    return (frame_name){ results->sample_case[row], table_cell(results->samples, row, launch),
+                         table_cell(results->samples, row, frame) };
+}
+
+/* Samples of frames that are marked off_clock count for nothing, as in summary.csv. */
+static fm_status leave_out_off_clock(fm_result_files *results, size_t launch, fm_error *err)
+{
+    const fm_table *table = results->samples;
+    size_t frame = 0, count = 0;
+    const fm_status status = need_column(&frame, table, "frame", err);
+    if (status != FM_OK)
+        return status;
+    frame_name *slow = calloc(table->row_count + 1, sizeof *slow);
+    if (slow == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "%s: %zu rows", table->path, table->row_count);
+    for (size_t row = 0; row < table->row_count; row++)
+        if (strcmp(table_cell(table, row, results->sample_metric), "off_clock") == 0)
+            slow[count++] = frame_of(results, row, launch, frame);
+    qsort(slow, count, sizeof *slow, compare_frames);
+    for (size_t row = 0; row < table->row_count && count > 0; row++) {
+        const frame_name own = frame_of(results, row, launch, frame);
+        if (bsearch(&own, slow, count, sizeof *slow, compare_frames) != NULL)
+            results->sample_case[row] = UINT32_MAX;
+    }
+    free(slow);
+    return FM_OK;
+}
+
 static fm_status read_samples(fm_result_files *results, fm_error *err)
 {
     const fm_table *table = results->samples;
@@ -203,7 +248,7 @@ static fm_status read_samples(fm_result_files *results, fm_error *err)
             strcmp(table_cell(table, row, results->sample_metric), "total_rmse") == 0)
             results->cases[found].total_rmse = results->sample_value[row];
     }
-    return FM_OK;
+    return leave_out_off_clock(results, launch, err);
 }
 
 static fm_status read_table(fm_table **table, const char *directory, const char *name,

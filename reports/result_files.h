@@ -34,9 +34,10 @@ typedef struct fm_result_files {
     fm_table *summary, *samples;
     fm_case_row *cases;
     size_t count;
-    uint32_t *sample_case; /* [samples->row_count]: index into cases; UINT32_MAX: none */
-    double *sample_value;  /* [samples->row_count] */
-    size_t sample_metric;  /* column */
+    /* [samples->row_count]: index into cases; UINT32_MAX: none, or marked off_clock */
+    uint32_t *sample_case;
+    double *sample_value; /* [samples->row_count] */
+    size_t sample_metric; /* column */
 } fm_result_files;
 
 /* FM_IO: a file cannot be read. FM_INVALID: damaged, naming file and line. The caller closes. */

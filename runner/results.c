@@ -249,7 +249,7 @@ static void worsen(fm_case_result *kept, uint32_t launch, fm_case_status status,
 static bool depths_may_tie(const fm_settings *settings)
 {
     return settings->generator == FM_GENERATOR_MESH || settings->depths == FM_DEPTHS_COPLANAR ||
-           settings->depths == FM_DEPTHS_SLOPED;
+           settings->depths == FM_DEPTHS_EQUAL || settings->depths == FM_DEPTHS_SLOPED;
 }
 
 /* Only launch 0 is checked against truth; an exact method's later images must equal that one. */
@@ -328,7 +328,7 @@ bool results_is_finished(const fm_results *results, size_t case_index)
     return kept->done == results->plan->launches || !case_status_continues(kept->status);
 }
 
-fm_status results_write_summary(fm_results *results, bool is_end, fm_error *err)
+static fm_status write_summary(fm_results *results, bool is_end, fm_error *err)
 {
     fm_text all = { 0 };
     fm_status status = FM_OK;
@@ -353,5 +353,40 @@ fm_status results_write_summary(fm_results *results, bool is_end, fm_error *err)
     if (status == FM_OK)
         status = text_write_file(results->summary_path, all.bytes, all.length, err);
     text_free(&all);
+    return status;
+}
+
+fm_status results_write_summary(fm_results *results, fm_error *err)
+{
+    return write_summary(results, false, err);
+}
+
+static void add_off_clock_rows(fm_text *rows, bool *is_off_clock, const fm_results *results,
+                               size_t case_index)
+{
+    const uint32_t frames = results->plan->frames;
+    const size_t count = (size_t)results->plan->launches * frames;
+    memset(is_off_clock, 0, count * sizeof *is_off_clock);
+    summary_off_clock(is_off_clock, results, case_index);
+    for (size_t i = 0; i < count; i++)
+        if (is_off_clock[i])
+            text_add(rows, "1,%s,%s,%zu,%zu,off_clock,1,\n", results->run_id,
+                     results->plan->cases[case_index].id, i / frames, i % frames);
+}
+
+fm_status results_end(fm_results *results, fm_error *err)
+{
+    fm_text rows = { 0 };
+    bool *is_off_clock =
+        calloc((size_t)results->plan->launches * results->plan->frames + 1, sizeof *is_off_clock);
+    if (is_off_clock == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "no memory for %u launches", results->plan->launches);
+    for (size_t i = 0; i < results->plan->count; i++)
+        add_off_clock_rows(&rows, is_off_clock, results, i);
+    fm_status status = append(results, &rows, err);
+    if (status == FM_OK)
+        status = write_summary(results, true, err);
+    text_free(&rows);
+    free(is_off_clock);
     return status;
 }

@@ -74,10 +74,13 @@ fm_status results_add(fm_results *results, size_t case_index, uint32_t launch, c
 /* No further launch of this case is wanted. */
 bool results_is_finished(const fm_results *results, size_t case_index);
 
-/* Writes summary.csv: a row for each case that was launched or is not to be. At the end of a run
- * all rows are renewed, because slow clocks are known only then, and cases that had no turn get
- * one, with status skipped. */
-fm_status results_write_summary(fm_results *results, bool is_end, fm_error *err);
+/* Writes summary.csv: a row for each case that was launched or is not to be. */
+fm_status results_write_summary(fm_results *results, fm_error *err);
+
+/* Once, at the end of a run. Slow clocks are known only now: samples off full clock are marked in
+ * samples.csv, by a row with metric off_clock for their launch and frame, and all rows of
+ * summary.csv are renewed without them. Cases that had no turn get a row with status skipped. */
+fm_status results_end(fm_results *results, fm_error *err);
 
 /* Adds text as an RFC 4180 field. */
 void csv_add(fm_text *text, const char *field);
@@ -85,6 +88,8 @@ void csv_add(fm_text *text, const char *field);
 void csv_add_real(fm_text *text, double value);
 /* Whether summary.csv has a column of this name. */
 bool summary_has_column(const char *name);
+/* Sets is_off_clock[launch * frames + frame] of each sample of the case whose canary was slow. */
+void summary_off_clock(bool *is_off_clock, const fm_results *results, size_t case_index);
 /* The names of the columns, and one row; both with their end of line. */
 void summary_header(fm_text *text);
 void summary_row(fm_text *text, const fm_results *results, size_t case_index);

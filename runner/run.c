@@ -134,7 +134,7 @@ static fm_status end_launch(run_state *run, size_t case_index, uint32_t launch, 
     if (status == FM_OK)
         status = results_add(run->results, case_index, launch, result, err);
     if (status == FM_OK && results_is_finished(run->results, case_index))
-        status = results_write_summary(run->results, false, err);
+        status = results_write_summary(run->results, err);
     return status;
 }
 
@@ -451,7 +451,7 @@ static fm_status prepare(run_state *run, fm_error *err)
     if (status == FM_OK)
         status = write_manifest(run, false, err);
     if (status == FM_OK)
-        status = results_write_summary(run->results, false, err);
+        status = results_write_summary(run->results, err);
     return status;
 }
 
@@ -474,7 +474,7 @@ fm_status run_cases(fm_run_result *result, const fm_plan *plan, const fm_plugin_
         launcher_close(&run.launcher);
     }
     if (status == FM_OK)
-        status = results_write_summary(run.results, true, err);
+        status = results_end(run.results, err);
     if (status == FM_OK)
         status = write_manifest(&run, run.stop_signal == 0, err);
     if (status == FM_OK) {

@@ -306,14 +306,16 @@ static double fastest_canary(const fm_results *results, const char *device)
     return fastest;
 }
 
-static void find_off_clock(bool *is_off_clock, const row_state *row)
+void summary_off_clock(bool *is_off_clock, const fm_results *results, size_t case_index)
 {
-    const uint32_t frames = row->results->plan->frames;
-    if (!row->result->has_gpu_clock)
+    const uint32_t frames = results->plan->frames;
+    const fm_case_result *result = &results->cases[case_index];
+    if (!result->has_gpu_clock)
         return;
-    const double limit = clock_slack * fastest_canary(row->results, row->measured->device);
-    for (size_t i = 0; i < row->result->sample_count; i++) {
-        const fm_kept_sample *sample = &row->result->samples[i];
+    const double limit =
+        clock_slack * fastest_canary(results, results->plan->cases[case_index].device);
+    for (size_t i = 0; i < result->sample_count; i++) {
+        const fm_kept_sample *sample = &result->samples[i];
         if (sample->metric == FM_SAMPLE_CANARY_NS && sample->value > limit &&
             sample->frame < frames)
             is_off_clock[(size_t)sample->launch * frames + sample->frame] = true;
@@ -348,7 +350,7 @@ void summary_row(fm_text *text, const fm_results *results, size_t case_index)
         text->failed = true;
         goto out;
     }
-    find_off_clock(is_off_clock, &row);
+    summary_off_clock(is_off_clock, results, case_index);
     count_frames(&row);
     const fm_samples samples = { row.values, row.groups, row.samples, plan->launches };
     row.frame_ms = stats_bootstrap(&samples, plan->seed);

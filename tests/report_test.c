@@ -218,6 +218,23 @@ static void results_take_total_rmse_from_samples(void **state)
     remove_directory(directory);
 }
 
+static void results_leave_out_frames_that_are_off_clock(void **state)
+{
+    (void)state;
+    char directory[64];
+    fm_result_files *results;
+    make_results(directory, usual, USUAL);
+    write_file(directory, "samples.csv",
+               "schema,run_id,case_id,launch,frame,metric,value,unit\n"
+               "1,r,a8,0,0,pass.peel_ms,3,ms\n1,r,a8,0,1,pass.peel_ms,99,ms\n"
+               "1,r,a8,1,1,pass.peel_ms,3,ms\n1,r,a8,0,1,off_clock,1,\n");
+    assert_int_equal(result_files_read(&results, directory, NULL), FM_OK);
+    assert_true(result_files_metric(results, &results->cases[1], "pass.peel_ms") == 3.0);
+    assert_true(isnan(result_files_metric(results, &results->cases[1], "off_clock")));
+    result_files_close(results);
+    remove_directory(directory);
+}
+
 static void frontier_holds_what_no_other_case_beats(void **state)
 {
     (void)state;
@@ -432,6 +449,7 @@ int main(void)
         cmocka_unit_test(axis_has_few_readable_ticks_over_many_decades),
         cmocka_unit_test(results_name_what_is_damaged),
         cmocka_unit_test(results_take_total_rmse_from_samples),
+        cmocka_unit_test(results_leave_out_frames_that_are_off_clock),
         cmocka_unit_test(frontier_holds_what_no_other_case_beats),
         cmocka_unit_test(groups_keep_different_scene_options_apart),
         cmocka_unit_test(figure_files_of_the_project_are_read),

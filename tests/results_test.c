@@ -182,6 +182,12 @@ static void summary_excludes_samples_off_full_clock(void **state)
     assert_field(results, "samples", "2");
     assert_field(results, "message", "unclear: only 2 samples at full clock");
     assert_field(results, "status", "ok");
+    assert_int_equal(results_end(results, NULL), FM_OK);
+    char *samples = fake_read(&fake, "samples.csv");
+    const char *mark = strstr(samples, "off_clock");
+    assert_non_null(strstr(samples, "1,run,0000000000000001,0,1,off_clock,1,\n"));
+    assert_null(strstr(mark + 1, "off_clock")); /* no other frame */
+    free(samples);
     results_destroy(results);
     fake_close(&fake);
 }
