@@ -1,0 +1,34 @@
+// A depth as an integer that compares as the depth does.
+//   exact      the float's bits
+//   published  uint((z - near) / far * (2^32 - 1)) in float arithmetic, as the k+-buffer paper's code: the
+//              division merges some neighbouring floats, and what lies before `near` becomes 0
+#include "common/array.glsl"
+
+const uint EMPTY = 0xFFFFFFFFu;
+
+#if DEPTH_BITS == DEPTH_BITS_PUBLISHED
+const float NEAR = 0.001, FAR = 50.0, SCALE = 4294967295.0; // its planes unless fitted to the scene
+
+uint key_of(float depth)
+{
+    return uint(max((depth - NEAR) / FAR, 0.0) * SCALE);
+}
+
+// The first float with this key, if it is one near the inverse; several may share it.
+float depth_of(uint key)
+{
+    uint bits = floatBitsToUint(float(key) / SCALE * FAR + NEAR) - 8u;
+    FM_LOOP for (uint i = 0u; i < 16u && key_of(uintBitsToFloat(bits)) < key; ++i)
+        ++bits;
+    return uintBitsToFloat(bits);
+}
+#else
+uint key_of(float depth)
+{
+    return fm_pack(depth, 0u).x;
+}
+float depth_of(uint key)
+{
+    return uintBitsToFloat(key);
+}
+#endif

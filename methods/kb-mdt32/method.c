@@ -1,0 +1,32 @@
+#include "fragmark/method.h"
+
+const fm_method_desc fm_method = {
+    .abi = FM_ABI,
+    .size_bytes = sizeof(fm_method_desc),
+    .id = "kb-mdt32",
+    .title = "KB-MDT",
+    .citation = "Maule, Comba, Torchelsen, Bastos 2013, Hybrid Transparency, "
+                "doi:10.1145/2448196.2448212",
+    .version = "1",
+    .traits = FM_TRAIT_BOUNDED | FM_TRAIT_LOSES_TIES,
+    .keeps = FM_KEEPS_K_NEAREST,
+    .family = FM_FAMILY_K_BUFFER,
+    .marker = FM_MARKER_CROSS,
+    .options = { { .name = "depth_bits", .values = { "exact", "published" },
+                   .help = "the float's bits, or the k+-buffer paper's quantisation" },
+                 { .name = "layout", .values = { "pixel", "layer" },
+                   .help = "a pixel's fragments side by side, or the i-th of all pixels" } },
+    .resources = {
+        { .name = "keys", .extent = { .per_pixel_k = 1 }, .used = { .per_kept = 1 } },
+        { .name = "colours", .extent = { .per_pixel_k = 1 }, .used = { .per_kept = 1 } },
+    },
+    .passes = {
+        { .name = "clear", .kind = FM_PASS_PIXELS, .shader = "clear.glsl",
+          .writes = { "keys", "colours" } },
+        { .name = "store", .shader = "store.glsl", .writes = { "keys" } },
+        { .name = "colour", .shader = "colour.glsl", .reads = { "keys" },
+          .writes = { "colours" } },
+        { .name = "resolve", .kind = FM_PASS_PIXELS, .shader = "resolve.glsl", .emits = true,
+          .reads = { "keys", "colours" } },
+    },
+};
