@@ -1,12 +1,18 @@
 // Where element i of a pixel's array of `length` lies: the method's option layout decides.
 //   pixel  a pixel's elements side by side
 //   layer  the i-th elements of all pixels side by side
+//   tile   as layer, within tiles of 8 x 8 pixels (narrower at the border: no element is wasted)
 // A method with places of its own defines OWN_ARRAY_SLOT and array_slot() before it includes this.
 #ifndef OWN_ARRAY_SLOT
 uint array_slot(uvec2 pixel, uint i, uint length)
 {
 #if LAYOUT == LAYOUT_LAYER
     return i * uint(FM_PIXELS) + fm_pixel_index(pixel);
+#elif LAYOUT == LAYOUT_TILE
+    uvec2 corner = pixel & ~7u, within = pixel - corner;
+    uvec2 size = min(uvec2(FM_WIDTH, FM_HEIGHT) - corner, uvec2(8u));
+    uint pixels_before = corner.y * uint(FM_WIDTH) + corner.x * size.y;
+    return pixels_before * length + i * size.x * size.y + within.y * size.x + within.x;
 #else
     return fm_pixel_index(pixel) * length + i;
 #endif

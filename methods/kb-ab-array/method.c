@@ -12,8 +12,8 @@ const fm_method_desc fm_method = {
     .family = FM_FAMILY_K_BUFFER,
     .marker = FM_MARKER_SQUARE,
     .dashed = true,
-    .options = { { .name = "layout", .values = { "pixel", "layer" },
-                   .help = "a pixel's fragments side by side, or the i-th of all pixels" } },
+    .options = { { .name = "layout", .values = { "pixel", "layer", "tile" },
+                   .help = "side by side: a pixel's, the i-th of all pixels, or of a tile" } },
     .resources = {
         { .name = "counters", .extent = { .per_pixel = 1 }, .used = { .per_pixel = 1 } },
         { .name = "fragments", .element = FM_ELEMENT_UVEC2, .extent = { .per_pixel_n = 1 },

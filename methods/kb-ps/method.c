@@ -11,8 +11,8 @@ const fm_method_desc fm_method = {
     .keeps = FM_KEEPS_K_NEAREST,
     .family = FM_FAMILY_K_BUFFER,
     .marker = FM_MARKER_SQUARE,
-    .options = { { .name = "layout", .values = { "pixel", "layer" },
-                   .help = "a pixel's fragments side by side, or the i-th of all pixels" } },
+    .options = { { .name = "layout", .values = { "pixel", "layer", "tile" },
+                   .help = "side by side: a pixel's, the i-th of all pixels, or of a tile" } },
     .resources = {
         { .name = "fragments", .element = FM_ELEMENT_UVEC2, .extent = { .per_pixel_k = 1 },
           .used = { .per_kept = 1 } },
