@@ -47,7 +47,8 @@ static void k_buffer_errs_in_most_pixels_when_neighbours_contend(void **state)
 
 static void synchronised_methods_are_exact_when_neighbours_contend(void **state)
 {
-    static const char *const methods[] = { "kplus-array", "kplus-heap", "kb-ps", "kb-mdt64" };
+    static const char *const methods[] = { "kplus-array", "kplus-heap", "kb-ps",
+                                           "kb-mdt64",    "kb-mdt32",   "kb-ll" };
     scene_kit kit;
     kit_scene scene;
     kit_open(&kit, lavapipe_of(state));
