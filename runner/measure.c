@@ -236,6 +236,8 @@ static fm_status check_bands(checking *check, fm_instance *instance, fm_error *e
         } else {
             status = frame_again_if_lossy(&result, check->measurement, instance, &band,
                                           check->stage->device, err);
+            if (result.lost > check->measurement->lost)
+                check->measurement->lost = result.lost;
             check->measurement->culled = result.culled;
             check->measurement->locked = result.locked;
         }
