@@ -7,10 +7,9 @@
 #include <string.h>
 
 /* Spins until a lock is given up and the fragment counted as lost: bounded, since a hung GPU helps
- * nobody; below Mesa's software limit of 65 535 iterations of all loops of an invocation. */
-/* On software rasterisers a try costs an iteration of the spin and one of each loop in store(), taken
- * or not, out of 65 535 for all: where they end, a store ends half way and nobody knows. This leaves some
- * of them for stores with up to three loops. */
+ * nobody. In Mesa's software a try costs an iteration of the spin and one of each loop in store(),
+ * taken or not, out of 65 535 for all: where they end, a store ends half way and nobody knows.
+ * Three loops in store() fit. */
 enum { SPIN_MAX = 1 << 20, SPIN_MAX_SOFTWARE = 16000, GROUP_SIZE = 64 };
 
 static bool is_scene(const fm_pass *pass)
