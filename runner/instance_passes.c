@@ -293,12 +293,27 @@ static fm_status add_body(fm_text *text, const fm_instance *instance, const fm_p
     return status;
 }
 
+/* Interlock is the lock's, not the method's; buffers choose how they are reached. */
+static uint32_t features_of(const built_pass *built, const fm_instance *instance,
+                            const fm_pass *pass)
+{
+    const uint32_t chosen = FM_FEATURE_INTERLOCK | FM_FEATURE_BUFFER_ADDRESS;
+    uint32_t features = instance->method->features & ~chosen;
+    if (!built->is_drawn) /* a fragment shader's alone */
+        features &= ~(uint32_t)FM_FEATURE_STENCIL_EXPORT;
+    if (has_interlock(instance, pass))
+        features |= FM_FEATURE_INTERLOCK;
+    if (any_address(built))
+        features |= FM_FEATURE_BUFFER_ADDRESS;
+    return features;
+}
+
 /* The fragment or compute shader of a pass. */
 static fm_status pass_source(fm_text *text, const built_pass *built, const fm_instance *instance,
                              const fm_pass *pass, fm_error *err)
 {
     const size_t skipped = built->is_drawn ? built->stage_use_count : 0;
-    shader_begin(text, &instance->device->caps, any_address(built), has_interlock(instance, pass));
+    shader_begin(text, &instance->device->caps, features_of(built, instance, pass));
     if (!built->is_drawn)
         text_add(text, "layout(local_size_x = %d) in;\n", GROUP_SIZE);
     define_all(text, instance, pass);
@@ -361,7 +376,7 @@ static fm_status vertex_source(fm_text *text, const built_pass *built, const fm_
     if (is_scene(pass))
         return stage_vertex_shader(text, built->uses, built->stage_use_count, instance->desc.stage,
                                    folders, pass->flat_tessellation, err);
-    shader_begin(text, &instance->device->caps, false, false);
+    shader_begin(text, &instance->device->caps, 0);
     return shader_add_file(text, folders, "common/full_screen_vertex.glsl", err);
 }
 

@@ -46,16 +46,25 @@ void shader_define(fm_text *text, const char *name, uint64_t value)
     text_add(text, "#define %s %" PRIu64 "%s\n", name, value, value > INT32_MAX ? "u" : "");
 }
 
-void shader_begin(fm_text *text, const fm_device_caps *caps, bool any_address, bool has_interlock)
+/* What GLSL calls the FM_FEATURE_* bits. */
+static const struct feature_words {
+    uint32_t feature;
+    const char *extension;
+} feature_words[] = {
+    { FM_FEATURE_INT64_ATOMICS, "GL_EXT_shader_explicit_arithmetic_types_int64" },
+    { FM_FEATURE_INT64_ATOMICS, "GL_EXT_shader_atomic_int64" },
+    { FM_FEATURE_INTERLOCK, "GL_ARB_fragment_shader_interlock" },
+    { FM_FEATURE_STENCIL_EXPORT, "GL_ARB_shader_stencil_export" },
+    { FM_FEATURE_BUFFER_ADDRESS, "GL_EXT_buffer_reference" },
+    { FM_FEATURE_SUBGROUP_BALLOT, "GL_KHR_shader_subgroup_ballot" },
+};
+
+void shader_begin(fm_text *text, const fm_device_caps *caps, uint32_t features)
 {
     text_add(text, "#version 450\n");
-    if (any_address)
-        text_add(text, "#extension GL_EXT_buffer_reference : require\n");
-    if (has_interlock)
-        text_add(text, "#extension GL_ARB_fragment_shader_interlock : require\n");
-    if ((caps->features & FM_FEATURE_INT64_ATOMICS) != 0)
-        text_add(text, "#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require\n"
-                       "#extension GL_EXT_shader_atomic_int64 : require\n");
+    for (size_t i = 0; i < sizeof feature_words / sizeof feature_words[0]; i++)
+        if ((features & feature_words[i].feature) != 0)
+            text_add(text, "#extension %s : require\n", feature_words[i].extension);
     text_add(text,
              "#ifdef VULKAN\n"
              "#extension GL_EXT_control_flow_attributes : require\n"

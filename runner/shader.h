@@ -56,8 +56,9 @@ typedef struct fm_shader_folders {
     const char *common; /* the runner's GLSL */
 } fm_shader_folders;
 
-/* #version, extensions and what depends on the device alone. */
-void shader_begin(fm_text *text, const fm_device_caps *caps, bool any_address, bool has_interlock);
+/* #version, the extensions of the features that this shader uses (FM_FEATURE_*, all of which the
+ * device has), and what depends on the device alone. */
+void shader_begin(fm_text *text, const fm_device_caps *caps, uint32_t features);
 void shader_define(fm_text *text, const char *name, uint64_t value);
 /* Parameter block, table block and the declaration of each used resource. part names the shader's
  * stage: OpenGL takes blocks of one name in two stages for one block, which must then be equal. */

@@ -67,7 +67,7 @@ fm_status stage_vertex_shader(fm_text *text, const fm_use *uses, size_t use_coun
     bool any_address = false;
     for (size_t i = 0; i < use_count; i++)
         any_address = any_address || uses[i].slot->by_address;
-    shader_begin(text, &stage->device->caps, any_address, false);
+    shader_begin(text, &stage->device->caps, any_address ? FM_FEATURE_BUFFER_ADDRESS : 0);
     stage_define(text, stage, is_flat);
     shader_declare(text, uses, use_count, "vertex");
     fm_status status = FM_OK;

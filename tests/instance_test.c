@@ -19,14 +19,19 @@ static const char step_file[] =
     "    value[i] = fm_iteration == 0u ? 1u : value_previous[i] + 1u;\n}\n";
 static const char take_file[] = "void take(uvec2 pixel)\n{\n    if (pixel == uvec2(0u))\n"
                                 "        result[0] = value_previous[0];\n}\n";
+static const char vote_file[] =
+    "void vote(uvec2 pixel)\n{\n    uint votes = subgroupBallotBitCount(subgroupBallot(true));\n"
+    "    if (pixel == uvec2(0u) && votes > 0u)\n        result[0] = 7u;\n}\n";
+static const char wide_file[] =
+    "void wide(uvec2 pixel)\n{\n    uint64_t sum = uint64_t(pixel.x) + 1ul;\n"
+    "    if (pixel == uvec2(0u))\n        result[0] = uint(sum >> 1);\n}\n";
 
 static const struct {
     const char *name, *text;
-} files[] = { { "one.glsl", add_one },
-              { "hundred.glsl", add_hundred },
-              { "result.glsl", result_file },
-              { "step.glsl", step_file },
-              { "take.glsl", take_file } };
+} files[] = { { "one.glsl", add_one },        { "hundred.glsl", add_hundred },
+              { "result.glsl", result_file }, { "step.glsl", step_file },
+              { "take.glsl", take_file },     { "vote.glsl", vote_file },
+              { "wide.glsl", wide_file } };
 enum { FILE_COUNT = sizeof files / sizeof files[0] };
 
 static void write_files(char folder[32])
@@ -168,6 +173,38 @@ static void an_iteration_reads_what_the_last_one_wrote_by_address(void **state)
     assert_int_equal(run_frame(*state, &ping_pong, FM_BUFFERS_ADDRESS), 5);
 }
 
+/* One pixel pass of this name writes result[0]. */
+static fm_method_desc one_pass(const char *name, const char *shader, uint32_t features)
+{
+    return (fm_method_desc){
+        HEAD,
+        .features = features,
+        .resources = { { .name = "result", .extent = { .constant = 1 } } },
+        .passes = { { .name = name,
+                      .kind = FM_PASS_PIXELS,
+                      .shader = shader,
+                      .writes = { "result" } } },
+    };
+}
+
+static void a_method_that_asks_for_ballots_has_their_words(void **state)
+{
+    const fm_device *device = *state;
+    const fm_method_desc method = one_pass("vote", "vote.glsl", FM_FEATURE_SUBGROUP_BALLOT);
+    if ((device->caps.features & FM_FEATURE_SUBGROUP_BALLOT) == 0)
+        skip();
+    assert_int_equal(run_frame(*state, &method, FM_BUFFERS_AUTO), 7);
+}
+
+static void only_a_method_that_asks_for_64_bits_has_them(void **state)
+{
+    uint32_t word = 0;
+    fm_error err = { 0 };
+    const fm_method_desc method = one_pass("wide", "wide.glsl", 0);
+    assert_int_equal(try_frame(&word, *state, &method, FM_BUFFERS_AUTO, &err), FM_SHADER);
+    assert_non_null(strstr(err.message, "uint64_t"));
+}
+
 /* 3 x 2 pixels: wrapped to 64 bits these would be 2 and 12 bytes. */
 static void an_extent_beyond_64_bits_is_no_memory(void **state)
 {
@@ -190,6 +227,8 @@ int main(void)
         ON_VULKAN_AND_OSMESA(loops_that_start_together_nest),
         ON_VULKAN_AND_OSMESA(an_iteration_reads_what_the_last_one_wrote),
         ON_VULKAN_AND_OSMESA(an_iteration_reads_what_the_last_one_wrote_by_address),
+        ON_VULKAN_AND_OSMESA(a_method_that_asks_for_ballots_has_their_words),
+        ON_VULKAN_AND_OSMESA(only_a_method_that_asks_for_64_bits_has_them),
         ON_VULKAN_AND_OSMESA(an_extent_beyond_64_bits_is_no_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

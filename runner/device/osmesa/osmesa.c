@@ -48,7 +48,7 @@ static uint32_t find_features(const fm_gl *gl)
     } known[] = {
         { "GL_ARB_shader_stencil_export", FM_FEATURE_STENCIL_EXPORT },
         { "GL_ARB_fragment_shader_interlock", FM_FEATURE_INTERLOCK },
-        { "GL_ARB_shader_ballot", FM_FEATURE_SUBGROUP_BALLOT },
+        { "GL_KHR_shader_subgroup", FM_FEATURE_SUBGROUP_BALLOT },
     };
     uint32_t features = 0;
     const GLuint count = (GLuint)get_integer(gl, GL_NUM_EXTENSIONS);
