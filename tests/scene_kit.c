@@ -140,41 +140,73 @@ static void fill_desc(fm_instance_desc *desc, const kit_scene *scene, const fm_p
     };
 }
 
+/* The texts of a way, as a method takes them. */
+typedef struct asked_case {
+    fm_settings settings;
+    fm_choice choices[FM_MAX_OPTIONS];
+    fm_instance_desc desc;
+    fm_stage *stage;
+} asked_case;
+
+static fm_status ask(asked_case *asked, kit_scene *scene, const kit_way *way, fm_error *err)
+{
+    const fm_plugin_entry *entry = plugin_list_find(&scene->kit->plugins, way->method);
+    size_t choice_count = 0;
+    if (entry == NULL || entry->plugin == NULL)
+        fail_msg("%s: %s", way->method, entry == NULL ? "plugin not found" : entry->error.message);
+    asked->settings = scene->scene->settings;
+    asked->settings.buffers = FM_BUFFERS_AUTO;
+    apply(&asked->settings, asked->choices, &choice_count, way->texts);
+    if (entry->plugin->method->keeps != FM_KEEPS_K_NEAREST)
+        asked->settings.k = 0;
+    scene->scene->settings.buffers = asked->settings.buffers;
+    fill_desc(&asked->desc, scene, entry->plugin, &asked->settings);
+    asked->desc.choices = asked->choices;
+    asked->desc.choice_count = choice_count;
+    const fm_status status =
+        stage_create(&asked->stage, scene->kit->device, scene->scene, scene->truth, way->feed, err);
+    if (status == FM_OK && scene->told_n != 0)
+        asked->stage->n = scene->told_n;
+    asked->desc.stage = asked->stage;
+    return status;
+}
+
 fm_status kit_try(fm_measurement *measurement, kit_scene *scene, const kit_way *way, bool check,
                   fm_error *err)
 {
-    const fm_plugin_entry *entry = plugin_list_find(&scene->kit->plugins, way->method);
-    fm_settings settings = scene->scene->settings;
-    fm_choice choices[FM_MAX_OPTIONS];
-    fm_instance_desc method, floor;
-    fm_stage *stage = NULL;
-    assert_non_null(entry);
-    assert_non_null(entry->plugin);
+    asked_case asked = { .stage = NULL };
+    fm_instance_desc floor;
     *measurement = (fm_measurement){ .samples = NULL };
-    settings.buffers = FM_BUFFERS_AUTO;
-    size_t choice_count = 0;
-    apply(&settings, choices, &choice_count, way->texts);
-    if (entry->plugin->method->keeps != FM_KEEPS_K_NEAREST)
-        settings.k = 0;
-    scene->scene->settings.buffers = settings.buffers;
-    fill_desc(&method, scene, entry->plugin, &settings);
-    fill_desc(&floor, scene, scene->kit->floor, &settings);
-    method.choices = choices;
-    method.choice_count = choice_count;
-    fm_status status =
-        stage_create(&stage, scene->kit->device, scene->scene, scene->truth, way->feed, err);
-    method.stage = floor.stage = stage;
-    const fm_measure_desc desc = { .method = &method,
+    fm_status status = ask(&asked, scene, way, err);
+    fill_desc(&floor, scene, scene->kit->floor, &asked.settings);
+    floor.stage = asked.stage;
+    const fm_measure_desc desc = { .method = &asked.desc,
                                    .floor = &floor,
                                    .truth = scene->truth,
                                    .frames = 1,
                                    .warmup = 1,
                                    .check = check };
-    if (status == FM_OK && scene->told_n != 0)
-        stage->n = scene->told_n;
     if (status == FM_OK)
         status = measure_case(measurement, &desc, err);
-    stage_destroy(stage);
+    stage_destroy(asked.stage);
+    return status;
+}
+
+fm_status kit_build(kit_scene *scene, const kit_way *way, bool is_capture, fm_error *err)
+{
+    asked_case asked = { .stage = NULL };
+    fm_instance *instance = NULL;
+    fm_status status = ask(&asked, scene, way, err);
+    asked.desc.is_capture = is_capture;
+    asked.desc.capture_slots = is_capture ? asked.stage->n + 1 : 0;
+    if (status == FM_OK && is_capture)
+        status = stage_create_capture(asked.stage,
+                                      (uint64_t)scene->scene->width_px * scene->scene->height_px,
+                                      asked.desc.capture_slots, err);
+    if (status == FM_OK)
+        status = instance_create(&instance, &asked.desc, err);
+    instance_destroy(instance);
+    stage_destroy(asked.stage);
     return status;
 }
 

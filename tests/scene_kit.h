@@ -69,6 +69,9 @@ fm_status kit_try(fm_measurement *measurement, kit_scene *scene, const kit_way *
 bool kit_measure(fm_measurement *measurement, kit_scene *scene, const kit_way *way);
 /* The same without the check of fragments: bytes and image only. */
 bool kit_measure_times(fm_measurement *measurement, kit_scene *scene, const kit_way *way);
+/* Sets the method up, resources and pipelines of the timed or the checked build, and runs nothing.
+ */
+fm_status kit_build(kit_scene *scene, const kit_way *way, bool is_capture, fm_error *err);
 /* "kplus-array, compute-layer, k=8": for messages. */
 void kit_tell(char text[256], const kit_way *way);
 
