@@ -3,7 +3,8 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
+
+#include "clock.h"
 
 enum {
     CANARY_TIMER = FM_MAX_TIMERS - 1,
@@ -25,13 +26,6 @@ typedef struct frame_run {
     uint64_t query[FM_MAX_QUERIES];
     fm_error *err;
 } frame_run;
-
-static uint64_t now_ns(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (uint64_t)now.tv_sec * 1000000000u + (uint64_t)now.tv_nsec;
-}
 
 static fm_status flush(frame_run *frame)
 {
@@ -377,7 +371,7 @@ fm_status instance_frame(fm_frame_result *result, fm_instance *instance, const f
     *result = (fm_frame_result){ 0 };
     if (band != NULL)
         frame.band = *band;
-    const uint64_t started_ns = now_ns();
+    const uint64_t started_ns = clock_ns();
     fm_status status = run_once(&frame);
     while (status == FM_OK && frame.redo) {
         if (++result->redos > REDO_MAX)
@@ -385,7 +379,7 @@ fm_status instance_frame(fm_frame_result *result, fm_instance *instance, const f
                            instance->method->id, REDO_MAX);
         status = run_once(&frame);
     }
-    result->wall_ns = now_ns() - started_ns;
+    result->wall_ns = clock_ns() - started_ns;
     return status == FM_OK ? read_counters(&frame) : status;
 }
 

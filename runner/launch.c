@@ -12,6 +12,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "clock.h"
 #include "outcome.h"
 #include "text.h"
 
@@ -80,13 +81,6 @@ json_t *launch_result(const char *status, const char *message)
     json_t *result = json_pack("{s:s, s:s}", "status", status, "message", copy != NULL ? copy : "");
     free(copy);
     return result;
-}
-
-static double now_seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
 }
 
 /* Between fork and exec: async-signal-safe calls only. */
@@ -161,10 +155,10 @@ static bool has_ended(pid_t pid)
 /* Waits for the end of a process, stops its group at the deadline or when told to. */
 static void watch(ending *end, pid_t pid, const fm_launcher *launcher, const fm_launch_desc *desc)
 {
-    const double started = now_seconds();
+    const double started = clock_s();
     struct rusage usage = { 0 };
     while (!has_ended(pid)) {
-        const double left = desc->timeout_s == 0 ? 1.0 : started + desc->timeout_s - now_seconds();
+        const double left = desc->timeout_s == 0 ? 1.0 : started + desc->timeout_s - clock_s();
         const int signal_number = left <= 0.0 ? 0 : next_signal(launcher, left < 1.0 ? left : 1.0);
         if (signal_number == SIGINT || signal_number == SIGTERM)
             end->stop_signal = signal_number;
@@ -305,7 +299,7 @@ static json_t *read_result(const ending *end, const fm_launch_desc *desc, off_t 
 fm_status launch_worker(fm_launch_outcome *outcome, const fm_launcher *launcher,
                         const fm_launch_desc *desc, fm_error *err)
 {
-    const double started = now_seconds();
+    const double started = clock_s();
     struct stat log_before;
     ending end = { 0 };
     pid_t pid = -1;
@@ -317,7 +311,7 @@ fm_status launch_worker(fm_launch_outcome *outcome, const fm_launcher *launcher,
     if (status != FM_OK)
         return status;
     watch(&end, pid, launcher, desc);
-    outcome->seconds = now_seconds() - started;
+    outcome->seconds = clock_s() - started;
     outcome->stop_signal = end.stop_signal;
     outcome->is_interrupted = end.stop_signal != 0;
     if (outcome->is_interrupted)

@@ -2,18 +2,11 @@
 
 #include <math.h>
 #include <string.h>
-#include <time.h>
 
+#include "clock.h"
 #include "stats.h"
 
 static const double plain_interval_s = 10.0;
-
-static double now_seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
-}
 
 void duration_text(char text[32], double seconds)
 {
@@ -53,7 +46,7 @@ static void write_state(fm_progress *progress, double now)
 
 void progress_tick(fm_progress *progress)
 {
-    const double now = now_seconds();
+    const double now = clock_s();
     if (progress->out != NULL &&
         (progress->is_terminal || now - progress->written_s >= plain_interval_s))
         write_state(progress, now);
@@ -63,7 +56,7 @@ void progress_begin(fm_progress *progress, const char *current)
 {
     snprintf(progress->current, sizeof progress->current, "%s", current);
     if (progress->started_s <= 0.0)
-        progress->started_s = now_seconds();
+        progress->started_s = clock_s();
     progress_tick(progress);
 }
 

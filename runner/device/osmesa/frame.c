@@ -1,14 +1,7 @@
 #include <assert.h>
-#include <time.h>
 
+#include "clock.h"
 #include "device/osmesa/context.h"
-
-static uint64_t now_ns(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (uint64_t)now.tv_sec * 1000000000u + (uint64_t)now.tv_nsec;
-}
 
 fm_status osmesa_frame_begin(fm_device *device, fm_error *err)
 {
@@ -18,7 +11,7 @@ fm_status osmesa_frame_begin(fm_device *device, fm_error *err)
         return fm_fail(err, FM_DEVICE_LOST, "osmesa: before the frame: %s", gl_error_name(code));
     self->times = (fm_frame_times){ .wall_ns = 0 };
     self->queries_used = 0;
-    self->frame_start_ns = now_ns();
+    self->frame_start_ns = clock_ns();
     return FM_OK;
 }
 
@@ -43,7 +36,7 @@ fm_status osmesa_frame_end(fm_device *device, fm_frame_times *times, fm_error *e
     self->gl.Finish();
     for (uint32_t slot = 0; slot < FM_MAX_QUERIES; slot++)
         osmesa_query_collect(self, slot);
-    self->times.wall_ns = now_ns() - self->frame_start_ns;
+    self->times.wall_ns = clock_ns() - self->frame_start_ns;
     *times = self->times;
     const GLenum code = self->gl.GetError();
     if (code != GL_NO_ERROR)

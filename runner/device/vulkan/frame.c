@@ -1,16 +1,9 @@
 #include <assert.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "clock.h"
 #include "device/vulkan/context.h"
-
-static uint64_t now_ns(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (uint64_t)now.tv_sec * 1000000000ull + (uint64_t)now.tv_nsec;
-}
 
 static fm_status create_pool(vulkan_query_pool *queries, const vulkan *self, VkQueryType type,
                              uint32_t capacity, fm_error *err)
@@ -57,7 +50,7 @@ fm_status vulkan_frame_begin(fm_device *device, fm_error *err)
     vulkan *self = (vulkan *)device;
     const VkCommandBufferBeginInfo info = { .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                             .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT };
-    self->frame_start_ns = now_ns();
+    self->frame_start_ns = clock_ns();
     self->timers_overflowed = false;
     const fm_status status = vulkan_descriptors_reset(self, err);
     if (status != FM_OK)
@@ -121,7 +114,7 @@ fm_status vulkan_frame_end(fm_device *device, fm_frame_times *times, fm_error *e
     *times = (fm_frame_times){ .wall_ns = 0 };
     vulkan_barrier_full(self, self->frame_commands); /* for the host's reads */
     fm_status status = vulkan_submit(self, self->frame_commands, "vulkan: frame", err);
-    times->wall_ns = now_ns() - self->frame_start_ns;
+    times->wall_ns = clock_ns() - self->frame_start_ns;
     if (self->has_hung)
         return status;
     if (status == FM_OK)
