@@ -47,8 +47,8 @@ static void k_buffer_errs_in_most_pixels_when_neighbours_contend(void **state)
 
 static void synchronised_methods_are_exact_when_neighbours_contend(void **state)
 {
-    static const char *const methods[] = { "kplus-array", "kplus-heap", "kb-ps",
-                                           "kb-mdt64",    "kb-mdt32",   "kb-ll" };
+    static const char *const methods[] = { "kplus-array", "kplus-heap", "kb-ps",   "kb-mdt64",
+                                           "kb-mdt32",    "kb-ll",      "kb-multi" };
     scene_kit kit;
     kit_scene scene;
     kit_open(&kit, lavapipe_of(state));
@@ -62,7 +62,7 @@ static void synchronised_methods_are_exact_when_neighbours_contend(void **state)
 
 static void no_method_errs_on_raster(void **state)
 {
-    static const char *const methods[] = { "kb", "kplus-array", "kplus-heap" };
+    static const char *const methods[] = { "kb", "kplus-array", "kplus-heap", "kb-multi" };
     scene_kit kit;
     kit_scene scene;
     kit_open(&kit, lavapipe_of(state));

@@ -1,0 +1,31 @@
+#include "fragmark/method.h"
+
+const fm_method_desc fm_method = {
+    .abi = FM_ABI,
+    .size_bytes = sizeof(fm_method_desc),
+    .id = "kb-multi",
+    .title = "KB-Multi",
+    .citation = "Liu, Wei, Xu, Wu 2009, Multi-Layer Depth Peeling via Fragment Sort, CAD/Graphics",
+    .version = "1",
+    .traits = FM_TRAIT_BOUNDED | FM_TRAIT_SORTS_IN_RESOLVE | FM_TRAIT_LOSES_TIES | FM_TRAIT_RACY,
+    .keeps = FM_KEEPS_K_NEAREST,
+    .family = FM_FAMILY_K_BUFFER,
+    .marker = FM_MARKER_PLUS,
+    .options = { { .name = "layout", .values = { "pixel", "layer", "tile" },
+                   .help = "side by side: a pixel's, the i-th of all pixels, or of a tile" } },
+    .resources = {
+        { .name = "changed", .extent = { .constant = 1 } }, /* 1 when a fragment was stored */
+        { .name = "fragments", .element = FM_ELEMENT_UVEC2, .extent = { .per_pixel_k = 1 },
+          .used = { .per_kept = 1 } },
+    },
+    .totals = { { .name = "changed", .resource = "changed", .pass = "store" } },
+    .passes = {
+        { .name = "clear", .kind = FM_PASS_PIXELS, .shader = "kb/clear.glsl",
+          .writes = { "fragments" } },
+        { .name = "settle", .kind = FM_PASS_CLEAR, .writes = { "changed" } },
+        { .name = "store", .shader = "store.glsl", .writes = { "changed", "fragments" } },
+        { .name = "resolve", .kind = FM_PASS_PIXELS, .shader = "resolve.glsl", .emits = true,
+          .reads = { "fragments" } },
+    },
+    .loops = { { .first = "settle", .last = "store", .until_zero = "changed" } },
+};

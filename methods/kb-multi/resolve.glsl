@@ -1,0 +1,15 @@
+#include "common/array.glsl"
+#define SORT_CAPACITY K
+#include "common/sort.glsl"
+
+void resolve(uvec2 pixel)
+{
+    uint count = 0u;
+    FM_LOOP for (uint i = 0u; i < K; ++i) {
+        uvec2 fragment = fragments[array_slot(pixel, i, K)];
+        if (fragment.x != FM_EMPTY_BITS)
+            sorted[count++] = fragment;
+    }
+    sort_fragments(count);
+    emit_sorted(pixel, count);
+}
