@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <unistd.h>
 
-#include "plan.h"
+#include "plan_case.h"
 
 void kit_open(scene_kit *kit, fm_device *device)
 {
@@ -157,6 +157,9 @@ static fm_status ask(asked_case *asked, kit_scene *scene, const kit_way *way, fm
     asked->settings = scene->scene->settings;
     asked->settings.buffers = FM_BUFFERS_AUTO;
     apply(&asked->settings, asked->choices, &choice_count, way->texts);
+    for (size_t i = 0; i < choice_count; i++)
+        if (option_find(entry->plugin->method, asked->choices[i].name) == NULL)
+            fail_msg("%s has no option '%s'", way->method, asked->choices[i].name);
     if (entry->plugin->method->keeps != FM_KEEPS_K_NEAREST)
         asked->settings.k = 0;
     scene->scene->settings.buffers = asked->settings.buffers;
