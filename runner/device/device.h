@@ -256,7 +256,20 @@ uint32_t fm_format_bytes(fm_format format);
 /* Bytes of one element. */
 uint32_t fm_element_bytes(fm_element element);
 
-/* Bookkeeping for implementations. */
+/* What follows is for implementations. */
+
+/* GLSL that does not compile. */
+typedef struct fm_shader_fault {
+    const char *pipeline, *stage; /* "kplus-array: store", "fragment" */
+    const char *source;           /* as it was handed in */
+    const char *log;              /* the compiler's words */
+    unsigned line; /* of the source, from 1, that they speak of; 0: they do not say */
+} fm_shader_fault;
+/* Fills *err with all of it, quoting the line, and returns FM_SHADER. */
+fm_status device_fail_shader(fm_error *err, const fm_shader_fault *fault);
+/* FM_UNSUPPORTED: more workgroups than the device has. */
+fm_status device_check_groups(const fm_device *device, const fm_dispatch *dispatch, fm_error *err);
+/* Bookkeeping. */
 void ledger_add(fm_ledger *ledger, fm_owner owner, uint64_t bytes);
 void ledger_remove(fm_ledger *ledger, fm_owner owner, uint64_t bytes);
 

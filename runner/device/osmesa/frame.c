@@ -117,24 +117,12 @@ void osmesa_bind(const fm_gl *gl, const fm_bind *binds, uint32_t count)
         bind_one(gl, &binds[i]);
 }
 
-static fm_status check_groups(const fm_device *device, const uint32_t groups[3], fm_error *err)
-{
-    for (int axis = 0; axis < 3; axis++) {
-        if (groups[axis] > device->caps.max_groups[axis])
-            return fm_fail(err, FM_UNSUPPORTED, "dispatch: %u groups, this device's most are %u",
-                           groups[axis], device->caps.max_groups[axis]);
-    }
-    return FM_OK;
-}
-
 fm_status osmesa_dispatch(fm_device *device, const fm_dispatch *dispatch, fm_error *err)
 {
     const fm_gl *gl = &osmesa_current(device)->gl;
-    if (dispatch->indirect == NULL) {
-        const fm_status status = check_groups(device, dispatch->groups, err);
-        if (status != FM_OK)
-            return status;
-    }
+    const fm_status status = device_check_groups(device, dispatch, err);
+    if (status != FM_OK)
+        return status;
     gl->MemoryBarrier(GL_ALL_BARRIER_BITS);
     gl->UseProgram(dispatch->pipeline->program);
     osmesa_bind(gl, dispatch->binds, dispatch->bind_count);

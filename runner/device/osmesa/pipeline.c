@@ -5,7 +5,7 @@
 
 #include "device/osmesa/context.h"
 
-enum { LOG_MAX_BYTES = 1024, QUOTE_MAX_BYTES = 200 }; /* so that both fit into an fm_error */
+enum { LOG_MAX_BYTES = 1024 };
 
 /* OpenGL's names of what GLSL for Vulkan calls so. They go behind the #version line; the line
  * numbers of messages stay those of the text that was handed in. */
@@ -34,32 +34,6 @@ static unsigned find_error_line(const char *log)
     return 0;
 }
 
-/* Copies line number `line`, from 1, without its indentation. */
-static void quote_line(char quote[QUOTE_MAX_BYTES], const char *source, unsigned line)
-{
-    const char *at = source;
-    for (unsigned i = 1; i < line && at != NULL; i++) {
-        at = strchr(at, '\n');
-        at = at != NULL ? at + 1 : NULL;
-    }
-    if (at == NULL)
-        at = "";
-    at += strspn(at, " \t");
-    snprintf(quote, QUOTE_MAX_BYTES, "%.*s", (int)strcspn(at, "\n"), at);
-}
-
-static fm_status fail_compile(fm_error *err, const char *pipeline, const shader_stage *stage,
-                              const char *log)
-{
-    char quote[QUOTE_MAX_BYTES];
-    const unsigned line = find_error_line(log);
-    if (line == 0)
-        return fm_fail(err, FM_SHADER, "%s: %s shader: %s", pipeline, stage->name, log);
-    quote_line(quote, stage->source, line);
-    return fm_fail(err, FM_SHADER, "%s: %s shader, line %u: '%s'\n%s", pipeline, stage->name, line,
-                   quote, log);
-}
-
 static fm_status compile_stage(const fm_gl *gl, GLuint program, const shader_stage *stage,
                                const char *pipeline, fm_error *err)
 {
@@ -81,7 +55,11 @@ static fm_status compile_stage(const fm_gl *gl, GLuint program, const shader_sta
     char log[LOG_MAX_BYTES] = "";
     gl->GetShaderInfoLog(shader, sizeof log, NULL, log);
     gl->DeleteShader(shader);
-    return fail_compile(err, pipeline, stage, log);
+    return device_fail_shader(err, &(fm_shader_fault){ .pipeline = pipeline,
+                                                       .stage = stage->name,
+                                                       .source = stage->source,
+                                                       .log = log,
+                                                       .line = find_error_line(log) });
 }
 
 static const char *const binding_kind_name[] = {

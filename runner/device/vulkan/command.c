@@ -57,24 +57,12 @@ void vulkan_image_clear(fm_device *device, fm_image_resource *image, const float
                                 1, &range);
 }
 
-static fm_status check_groups(const fm_device *device, const uint32_t groups[3], fm_error *err)
-{
-    for (int axis = 0; axis < 3; axis++) {
-        if (groups[axis] > device->caps.max_groups[axis])
-            return fm_fail(err, FM_UNSUPPORTED, "dispatch: %u groups, this device's most are %u",
-                           groups[axis], device->caps.max_groups[axis]);
-    }
-    return FM_OK;
-}
-
 fm_status vulkan_dispatch(fm_device *device, const fm_dispatch *dispatch, fm_error *err)
 {
     vulkan *self = (vulkan *)device;
     const VkCommandBuffer commands = self->frame_commands;
     VkMemoryBarrier2 barrier = vulkan_barrier_begin();
-    fm_status status = FM_OK;
-    if (dispatch->indirect == NULL)
-        status = check_groups(device, dispatch->groups, err);
+    fm_status status = device_check_groups(device, dispatch, err);
     if (status == FM_OK)
         status = vulkan_descriptors_bind(self, dispatch->pipeline, dispatch->binds,
                                          dispatch->bind_count, err);

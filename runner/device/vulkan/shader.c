@@ -4,8 +4,6 @@
 
 #include "device/vulkan/context.h"
 
-enum { LOG_MAX_BYTES = 1024, QUOTE_MAX_BYTES = 200 }; /* so that both fit into an fm_error */
-
 #define SOURCE_NAME "glsl" /* messages begin with it: "glsl:LINE: error: ..." */
 
 typedef struct stage_traits {
@@ -34,32 +32,6 @@ static unsigned find_error_line(const char *log)
         at = at != NULL ? at + 1 : NULL;
     }
     return 0;
-}
-
-/* Copies line number `line`, from 1, without its indentation. */
-static void quote_line(char quote[QUOTE_MAX_BYTES], const char *source, unsigned line)
-{
-    const char *at = source;
-    for (unsigned i = 1; i < line && at != NULL; i++) {
-        at = strchr(at, '\n');
-        at = at != NULL ? at + 1 : NULL;
-    }
-    if (at == NULL)
-        at = "";
-    at += strspn(at, " \t");
-    snprintf(quote, QUOTE_MAX_BYTES, "%.*s", (int)strcspn(at, "\n"), at);
-}
-
-static fm_status fail_compile(fm_error *err, const char *pipeline, const char *stage,
-                              const char *source, const char *log)
-{
-    char quote[QUOTE_MAX_BYTES];
-    const unsigned line = find_error_line(log);
-    if (line == 0)
-        return fm_fail(err, FM_SHADER, "%s: %s shader: %.*s", pipeline, stage, LOG_MAX_BYTES, log);
-    quote_line(quote, source, line);
-    return fm_fail(err, FM_SHADER, "%s: %s shader, line %u: '%s'\n%.*s", pipeline, stage, line,
-                   quote, LOG_MAX_BYTES, log);
 }
 
 static fm_status create_module(VkShaderModule *module, const vulkan *self, const char *name,
@@ -112,7 +84,11 @@ fm_status vulkan_shader_create(VkShaderModule *module, const vulkan *self, const
     if (result == NULL ||
         shaderc_result_get_compilation_status(result) != shaderc_compilation_status_success) {
         const char *log = result != NULL ? shaderc_result_get_error_message(result) : "";
-        status = fail_compile(err, name, traits.name, source, log);
+        status = device_fail_shader(err, &(fm_shader_fault){ .pipeline = name,
+                                                             .stage = traits.name,
+                                                             .source = source,
+                                                             .log = log,
+                                                             .line = find_error_line(log) });
         goto out;
     }
     status = create_module(module, self, name, result, err);
