@@ -80,5 +80,7 @@ fm_status pass_dispatch(fm_instance *instance, const fm_pass *pass, const built_
 fm_status passes_create(fm_instance *instance, fm_error *err);
 void passes_destroy(fm_instance *instance);
 const char *option_value(const fm_instance *instance, const fm_option *option);
+/* Whether the pass is drawn with t = 1. */
+bool pass_is_flat(const fm_instance *instance, const fm_pass *pass);
 
 #endif

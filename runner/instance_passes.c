@@ -44,6 +44,14 @@ const char *option_value(const fm_instance *instance, const fm_option *option)
     return option->values[0];
 }
 
+bool pass_is_flat(const fm_instance *instance, const fm_pass *pass)
+{
+    if (!pass->flat_tessellation || pass->flat_option == NULL)
+        return pass->flat_tessellation;
+    const char *value = instance->workload.option(&instance->workload, pass->flat_option);
+    return value != NULL && strcmp(value, "flat") == 0;
+}
+
 /* ---- what a pass uses ---- */
 
 static void add_use(built_pass *built, fm_slot *slot, uint32_t access, bool is_coherent,
@@ -172,7 +180,7 @@ static bool emits_first(const fm_instance *instance, const fm_pass *pass)
 static void define_all(fm_text *text, const fm_instance *instance, const fm_pass *pass)
 {
     const fm_device_caps *caps = &instance->device->caps;
-    stage_define(text, instance->desc.stage, pass->flat_tessellation);
+    stage_define(text, instance->desc.stage, pass_is_flat(instance, pass));
     shader_define(text, "K", instance->workload.k > 0 ? instance->workload.k : 1);
     shader_define(text, "N", instance->workload.n > 0 ? instance->workload.n : 1);
     shader_define(text, "FM_SPIN_MAX", caps->loop_limit > 0 ? SPIN_MAX_SOFTWARE : SPIN_MAX);
@@ -188,7 +196,7 @@ static void define_all(fm_text *text, const fm_instance *instance, const fm_pass
     }
     if (instance->desc.wants_primitive && is_scene(pass)) {
         fm_draw draw = { 0 };
-        stage_draw(&draw, instance->desc.stage, pass->flat_tessellation);
+        stage_draw(&draw, instance->desc.stage, pass_is_flat(instance, pass));
         shader_define(text, "FM_PRIMITIVE", 1);
         shader_define(text, "FM_INSTANCE_TRIANGLES", draw.vertex_count / 3);
         text_add(text, "uint fm_primitive;\n");
@@ -375,7 +383,7 @@ static fm_status vertex_source(fm_text *text, const built_pass *built, const fm_
     const fm_shader_folders *folders = &instance->desc.folders;
     if (is_scene(pass))
         return stage_vertex_shader(text, built->uses, built->stage_use_count, instance->desc.stage,
-                                   folders, pass->flat_tessellation, err);
+                                   folders, pass_is_flat(instance, pass), err);
     shader_begin(text, &instance->device->caps, 0);
     return shader_add_file(text, folders, "common/full_screen_vertex.glsl", err);
 }

@@ -271,7 +271,27 @@ static fm_status check_state(const fm_checked_method *check, const fm_pass *pass
     return check_samples(samples, image, err);
 }
 
-static fm_status check_flags(const fm_pass *pass, fm_error *err)
+/* flat_option: an option that can be "flat". */
+static fm_status check_flat_option(const fm_checked_method *check, const fm_pass *pass,
+                                   fm_error *err)
+{
+    size_t index;
+    if (pass->flat_option == NULL)
+        return FM_OK;
+    if (!pass->flat_tessellation)
+        return fm_fail(err, FM_INVALID, "flat_option: needs flat_tessellation");
+    const fm_status status =
+        check_known(&index, pass->flat_option, "flat_option", &check->options, err);
+    if (status != FM_OK)
+        return status;
+    const fm_option *option = &check->method->options[index];
+    for (int i = 0; i < FM_MAX_OPTION_VALUES && option->values[i] != NULL; i++)
+        if (strcmp(option->values[i], "flat") == 0)
+            return FM_OK;
+    return fm_fail(err, FM_INVALID, "flat_option '%s': has no value 'flat'", pass->flat_option);
+}
+
+static fm_status check_flags(const fm_checked_method *check, const fm_pass *pass, fm_error *err)
 {
     if (pass->exclusive && pass->kind != FM_PASS_SCENE)
         return fm_fail(err, FM_INVALID, "exclusive: only scene passes can be");
@@ -280,7 +300,7 @@ static fm_status check_flags(const fm_pass *pass, fm_error *err)
     if (pass->emits && pass->kind != FM_PASS_PIXELS)
         return fm_fail(err, FM_INVALID, "emits: a pass of kind %s cannot",
                        kind_rules[pass->kind].name);
-    return FM_OK;
+    return check_flat_option(check, pass, err);
 }
 
 /* count_total and indirect: needed by one kind, forbidden to the others. */
@@ -321,7 +341,7 @@ static fm_status check_pass(const fm_checked_method *check, const fm_pass *pass,
     if (status == FM_OK)
         status = check_state(check, pass, &samples, err);
     if (status == FM_OK)
-        status = check_flags(pass, err);
+        status = check_flags(check, pass, err);
     if (status == FM_OK)
         status = check_counts(check, pass, err);
     return status;

@@ -255,6 +255,7 @@ static void plugin_check_rejects_bad_passes(void **state)
     REFUSES(m.passes[COUNT].clear_word = 1, "clear_word");
     REFUSES(m.passes[RESOLVE].exclusive = true, "exclusive");
     REFUSES(m.passes[RESOLVE].flat_tessellation = true, "flat_tessellation");
+    REFUSES(m.passes[STORE].flat_option = "layout", "flat_option: needs flat_tessellation");
     REFUSES(m.passes[CLEAR].emits = true, "emits");
     REFUSES(m.passes[STORE].emits = true, "emits: a pass of kind scene cannot");
     REFUSES(m.passes[RESOLVE].emits = false, "none emits");

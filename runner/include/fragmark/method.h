@@ -323,6 +323,7 @@ typedef struct fm_pass {
     const char *count_total; /* FM_PASS_TOTAL */
     const char *indirect;    /* FM_PASS_INDIRECT */
     uint32_t clear_word;     /* FM_PASS_CLEAR */
+    const char *flat_option; /* flat_tessellation holds only where this option is "flat" */
 } fm_pass;
 
 /* Passes first..last (by name) run again and again: `count` times (constant + per k + per n), or
