@@ -1,0 +1,43 @@
+#include "fragmark/method.h"
+
+const fm_method_desc fm_method = {
+    .abi = FM_ABI,
+    .size_bytes = sizeof(fm_method_desc),
+    .id = "kplus-sb",
+    .title = "K+B-SB",
+    .citation = "Vasilakis, Fudos 2014, k+-buffer, doi:10.1145/2556700.2556702",
+    .version = "1",
+    .traits = FM_TRAIT_EXACT | FM_TRAIT_SORTS_IN_RESOLVE,
+    .keeps = FM_KEEPS_K_NEAREST,
+    .family = FM_FAMILY_K_PLUS_BUFFER,
+    .marker = FM_MARKER_PLUS,
+    .options = {
+        { .name = "counters", .values = { "32", "1", "2", "10", "30", "50", "256", "1024" },
+          .help = "S, how many counters all pixels share" },
+        { .name = "count", .values = { "tessellated", "flat" },
+          .help = "the counting pass as all others, or without tessellation (flat layers)" },
+    },
+    .resources = {
+        { .name = "counters", .extent = { .per_pixel = 1 }, .used = { .per_pixel = 1 } },
+        { .name = "addresses", .extent = { .per_pixel = 1 }, .used = { .per_pixel = 1 } },
+        { .name = "bins", .extent = { .per_option = 2, .option = "counters" } },
+        { .name = "fragments", .element = FM_ELEMENT_UVEC2, .sizing = FM_SIZE_AFTER_TOTAL,
+          .extent = { .per_total = 1, .total = "kept" }, .used = { .per_kept = 1 } },
+    },
+    .totals = { { .name = "kept", .resource = "bins", .sum = true, .pass = "reference" } },
+    .passes = {
+        { .name = "clear", .kind = FM_PASS_CLEAR, .writes = { "counters", "bins" } },
+        { .name = "count", .shader = "count.glsl", .writes = { "counters" },
+          .flat_tessellation = true, .flat_option = "count" },
+        { .name = "reference", .kind = FM_PASS_PIXELS, .shader = "reference.glsl",
+          .reads = { "counters" }, .writes = { "addresses", "bins" } },
+        { .name = "map", .kind = FM_PASS_PIXELS, .shader = "s-buffer/map.glsl",
+          .writes = { "bins" } },
+        { .name = "reset", .kind = FM_PASS_PIXELS, .shader = "reset.glsl", .reads = { "bins" },
+          .writes = { "counters", "addresses", "fragments" } },
+        { .name = "store", .shader = "store.glsl", .exclusive = true, .reads = { "addresses" },
+          .writes = { "counters", "fragments" } },
+        { .name = "resolve", .kind = FM_PASS_PIXELS, .shader = "resolve.glsl", .emits = true,
+          .reads = { "counters", "addresses", "fragments" } },
+    },
+};

@@ -1,0 +1,2 @@
+#define RECORDS(count) min(count, uint(K))
+#include "s-buffer/reference.glsl"

@@ -1,0 +1,2 @@
+#include "kplus-sb/slot.glsl"
+#include "kplus-heap/resolve.glsl"
