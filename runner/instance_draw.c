@@ -108,8 +108,7 @@ uint64_t pass_invocations(const fm_instance *instance, const fm_pass *pass)
     case FM_PASS_PIXELS:
         return (uint64_t)workload->width_px * workload->height_px;
     case FM_PASS_TILES:
-        return (uint64_t)((workload->width_px + FM_TILE_PX - 1) / FM_TILE_PX) *
-               ((workload->height_px + FM_TILE_PX - 1) / FM_TILE_PX);
+        return workload_tiles(workload);
     case FM_PASS_TRIANGLES:
         return workload->triangles;
     case FM_PASS_TOTAL:

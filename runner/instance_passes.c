@@ -10,7 +10,7 @@
  * nobody. In Mesa's software a try costs an iteration of the spin and one of each loop in store(),
  * taken or not, out of 65 535 for all: where they end, a store ends half way and nobody knows.
  * Three loops in store() fit. */
-enum { SPIN_MAX = 1 << 20, SPIN_MAX_SOFTWARE = 16000, GROUP_SIZE = 64 };
+enum { SPIN_MAX = 1 << 20, SPIN_MAX_SOFTWARE = 16000 };
 
 static bool is_scene(const fm_pass *pass)
 {
@@ -256,17 +256,13 @@ static void add_pixel_main(fm_text *text, const fm_pass *pass, bool drawn)
 static void add_index_main(fm_text *text, const fm_instance *instance, const fm_pass *pass)
 {
     char name[64];
-    const fm_workload *workload = &instance->workload;
-    const uint64_t tiles = (uint64_t)((workload->width_px + FM_TILE_PX - 1) / FM_TILE_PX) *
-                           ((workload->height_px + FM_TILE_PX - 1) / FM_TILE_PX);
     glsl_name(name, pass->name);
     text_add(text, "void main()\n{\n"
                    "    uint id = gl_GlobalInvocationID.y * (gl_NumWorkGroups.x * "
                    "gl_WorkGroupSize.x)\n        + gl_GlobalInvocationID.x;\n");
-    if (pass->kind == FM_PASS_TILES)
-        text_add(text, "    if (id >= %uu)\n        return;\n", (uint32_t)tiles);
-    if (pass->kind == FM_PASS_TRIANGLES)
-        text_add(text, "    if (id >= %uu)\n        return;\n", (uint32_t)workload->triangles);
+    if (pass->kind == FM_PASS_TILES || pass->kind == FM_PASS_TRIANGLES)
+        text_add(text, "    if (id >= %uu)\n        return;\n",
+                 (uint32_t)pass_invocations(instance, pass));
     if (pass->kind == FM_PASS_TOTAL) /* the total travels in the parameter block */
         text_add(text, "    if (id >= fm_band_first)\n        return;\n");
     text_add(text, "    %s(id);\n}\n", name);
@@ -276,9 +272,8 @@ static fm_status add_body(fm_text *text, const fm_instance *instance, const fm_p
                           bool drawn, fm_error *err)
 {
     const fm_shader_folders *folders = &instance->desc.folders;
-    const bool is_layers = instance->desc.stage->scene->settings.generator == FM_GENERATOR_LAYERS;
     fm_status status = shader_add_file(text, folders, "common/prelude.glsl", err);
-    if (status == FM_OK && is_scene(pass) && is_layers)
+    if (status == FM_OK && is_scene(pass) && scene_is_layers(instance->desc.stage->scene))
         status = shader_add_file(text, folders, "common/layers.glsl", err);
     if (status == FM_OK && pass->emits)
         status = shader_add_file(text, folders, "common/emit.glsl", err);
@@ -323,7 +318,7 @@ static fm_status pass_source(fm_text *text, const built_pass *built, const fm_in
     const size_t skipped = built->is_drawn ? built->stage_use_count : 0;
     shader_begin(text, &instance->device->caps, features_of(built, instance, pass));
     if (!built->is_drawn)
-        text_add(text, "layout(local_size_x = %d) in;\n", GROUP_SIZE);
+        text_add(text, "layout(local_size_x = %d) in;\n", STAGE_GROUP_SIZE);
     define_all(text, instance, pass);
     shader_declare(text, built->uses + skipped, built->use_count - skipped, "pass");
     if (built->is_drawn)

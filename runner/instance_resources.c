@@ -36,7 +36,7 @@ int pass_index(const fm_method_desc *method, const char *name)
     return -1;
 }
 
-static uint64_t tiles(const fm_workload *workload)
+uint64_t workload_tiles(const fm_workload *workload)
 {
     const uint64_t across = (workload->width_px + FM_TILE_PX - 1) / FM_TILE_PX;
     const uint64_t down = (workload->height_px + FM_TILE_PX - 1) / FM_TILE_PX;
@@ -73,7 +73,7 @@ static uint64_t extent_elements(const fm_instance *instance, const fm_extent *ex
         product_of(extent->per_pixel, pixels),
         product_of(product_of(extent->per_pixel_k, pixels), workload->k),
         product_of(product_of(extent->per_pixel_n, pixels), workload->n),
-        product_of(extent->per_tile, tiles(workload)),
+        product_of(extent->per_tile, workload_tiles(workload)),
         product_of(extent->per_triangle, workload->triangles),
         product_of(extent->per_total, total >= 0 ? instance->totals[total] : 0),
         product_of(extent->per_option, option_number(workload, extent->option)),

@@ -47,6 +47,17 @@ typedef struct fm_scene {
     uint32_t instances;
 } fm_scene;
 
+static inline bool scene_is_layers(const fm_scene *scene)
+{
+    return scene->settings.generator == FM_GENERATOR_LAYERS;
+}
+
+/* All layers of a cell are drawn before the next cell's. */
+static inline bool scene_is_cell_major(const fm_scene *scene)
+{
+    return scene_is_layers(scene) && scene->settings.order == FM_ORDER_CELL_MAJOR;
+}
+
 /* Builds the scene that settings describe; settings must have passed settings_finish.
  * FM_IO, FM_INVALID: meshes that are missing, empty, truncated, not finite or badly indexed. Of an
  * OBJ file, which states no counts, only what is cut within a line or refers to lost vertices

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { GROUP_SIZE = 64, INDICES_PER_QUAD = 6, CORNERS_PER_QUAD = 4 };
+enum { INDICES_PER_QUAD = 6, CORNERS_PER_QUAD = 4 };
 
 static const struct slot_words {
     const char *name, *type;
@@ -23,14 +23,9 @@ static const struct slot_words {
 };
 _Static_assert(sizeof slot_words / sizeof slot_words[0] == STAGE_SLOT_COUNT, "one each");
 
-static bool is_layers(const fm_stage *stage)
-{
-    return stage->scene->settings.generator == FM_GENERATOR_LAYERS;
-}
-
 static bool is_flat_layers(const fm_stage *stage)
 {
-    return is_layers(stage) && stage->scene->settings.depths != FM_DEPTHS_SLOPED;
+    return scene_is_layers(stage->scene) && stage->scene->settings.depths != FM_DEPTHS_SLOPED;
 }
 
 fm_status slot_create_buffer(fm_slot *slot, fm_device *device, fm_buffers buffers,
@@ -99,11 +94,6 @@ static fm_status create_quad_indices(fm_buffer **buffer, fm_device *device, cons
     return status;
 }
 
-static bool is_cell_major(const fm_stage *stage)
-{
-    return is_layers(stage) && stage->scene->settings.order == FM_ORDER_CELL_MAJOR;
-}
-
 static uint32_t cells(const fm_stage *stage)
 {
     const uint32_t t = stage->scene->settings.tessellation;
@@ -121,7 +111,7 @@ static fm_status create_layers(fm_stage *stage, fm_error *err)
         status = create_slot(stage, STAGE_ORDER, order_bytes, scene->order, false, err);
     if (status != FM_OK || stage->feed != FM_FEED_RASTER)
         return status;
-    const uint32_t quads = is_cell_major(stage) ? n : cells(stage);
+    const uint32_t quads = scene_is_cell_major(stage->scene) ? n : cells(stage);
     status = create_quad_indices(&stage->indices, stage->device, "indices", quads, err);
     if (status == FM_OK)
         status = create_quad_indices(&stage->flat_indices, stage->device, "flat indices", 1, err);
@@ -274,9 +264,9 @@ fm_status stage_create(fm_stage **out, fm_device *device, const fm_scene *scene,
                                      .in_table = true };
     stage->replays = feed != FM_FEED_RASTER && !is_flat_layers(stage);
     fm_status status = create_shared(stage, err);
-    if (status == FM_OK && is_layers(stage) && !stage->replays)
+    if (status == FM_OK && scene_is_layers(stage->scene) && !stage->replays)
         status = create_layers(stage, err);
-    if (status == FM_OK && !is_layers(stage))
+    if (status == FM_OK && !scene_is_layers(stage->scene))
         status = create_mesh(stage, err);
     if (status == FM_OK && stage->replays)
         status = create_replay(stage, truth, err);

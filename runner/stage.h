@@ -24,6 +24,9 @@ enum {
 
 enum { STAGE_COUNTER_LOST, STAGE_COUNTER_CULLED, STAGE_COUNTER_LOCKED, STAGE_COUNTER_COUNT = 4 };
 
+/* Invocations of a workgroup, of every compute shader. */
+enum { STAGE_GROUP_SIZE = 64 };
+
 typedef struct fm_stage {
     fm_device *device;
     const fm_scene *scene;
@@ -66,7 +69,8 @@ size_t stage_uses(fm_use *uses, fm_stage *stage);
 void stage_draw(fm_draw *draw, const fm_stage *stage, bool is_flat);
 /* Fills the vertex part of a pipeline. */
 void stage_vertex_layout(fm_pipeline_desc *desc, const fm_stage *stage);
-/* Workgroups of 64 for so many invocations, within the device's limits, in two dimensions. */
+/* Workgroups of STAGE_GROUP_SIZE for so many invocations, within the device's limits, in two
+ * dimensions. */
 fm_status stage_groups(uint32_t groups[3], const fm_device_caps *caps, uint64_t invocations,
                        fm_error *err);
 

@@ -3,25 +3,13 @@
 
 #include <inttypes.h>
 
-enum { GROUP_SIZE = 64 };
-
-static bool is_layers(const fm_stage *stage)
-{
-    return stage->scene->settings.generator == FM_GENERATOR_LAYERS;
-}
-
-static bool is_cell_major(const fm_stage *stage)
-{
-    return is_layers(stage) && stage->scene->settings.order == FM_ORDER_CELL_MAJOR;
-}
-
 static void define_layers(fm_text *text, const fm_stage *stage, bool is_flat)
 {
     const fm_scene *scene = stage->scene;
     const uint64_t seed = scene->settings.seed;
     shader_define(text, "FM_LAYERS", scene->n > 0 ? scene->n : 1); /* a divisor */
     shader_define(text, "FM_TESSELLATION", is_flat ? 1 : scene->settings.tessellation);
-    shader_define(text, "FM_CELL_MAJOR", is_cell_major(stage) && !is_flat);
+    shader_define(text, "FM_CELL_MAJOR", scene_is_cell_major(stage->scene) && !is_flat);
     shader_define(text, "FM_ORDER_ROWS", is_flat ? 1 : scene->order_rows);
     shader_define(text, "FM_RECT_X0", scene->rect.x0);
     shader_define(text, "FM_RECT_Y0", scene->rect.y0);
@@ -40,7 +28,7 @@ void stage_define(fm_text *text, const fm_stage *stage, bool is_flat)
     shader_define(text, "FM_WIDTH", scene->width_px);
     shader_define(text, "FM_HEIGHT", scene->height_px);
     shader_define(text, "FM_PIXELS", (uint64_t)scene->width_px * scene->height_px);
-    if (is_layers(stage))
+    if (scene_is_layers(stage->scene))
         define_layers(text, stage, is_flat);
     if (stage->feed == FM_FEED_RASTER)
         return;
@@ -71,12 +59,13 @@ fm_status stage_vertex_shader(fm_text *text, const fm_use *uses, size_t use_coun
     stage_define(text, stage, is_flat);
     shader_declare(text, uses, use_count, "vertex");
     fm_status status = FM_OK;
-    if (is_layers(stage))
+    if (scene_is_layers(stage->scene))
         status = shader_add_file(text, folders, "common/layers.glsl", err);
     if (status == FM_OK)
-        status = shader_add_file(
-            text, folders,
-            is_layers(stage) ? "common/layers_vertex.glsl" : "common/mesh_vertex.glsl", err);
+        status = shader_add_file(text, folders,
+                                 scene_is_layers(stage->scene) ? "common/layers_vertex.glsl"
+                                                               : "common/mesh_vertex.glsl",
+                                 err);
     return status;
 }
 
@@ -85,7 +74,7 @@ void stage_draw(fm_draw *draw, const fm_stage *stage, bool is_flat)
     const fm_scene *scene = stage->scene;
     const uint32_t t = scene->settings.tessellation, cells = t * t;
     draw->indices = stage->indices;
-    if (!is_layers(stage)) {
+    if (!scene_is_layers(stage->scene)) {
         draw->vertices = stage->vertices;
         draw->vertex_count = scene->index_count;
         draw->instance_count = scene->instances;
@@ -93,7 +82,7 @@ void stage_draw(fm_draw *draw, const fm_stage *stage, bool is_flat)
         draw->indices = stage->flat_indices;
         draw->vertex_count = 6;
         draw->instance_count = scene->n;
-    } else if (is_cell_major(stage)) {
+    } else if (scene_is_cell_major(stage->scene)) {
         draw->vertex_count = 6 * scene->n;
         draw->instance_count = cells;
     } else {
@@ -104,7 +93,7 @@ void stage_draw(fm_draw *draw, const fm_stage *stage, bool is_flat)
 
 void stage_vertex_layout(fm_pipeline_desc *desc, const fm_stage *stage)
 {
-    if (is_layers(stage))
+    if (scene_is_layers(stage->scene))
         return;
     desc->vertex_stride_bytes = sizeof(fm_vertex);
     desc->attribute_count = 2;
@@ -118,7 +107,7 @@ void stage_vertex_layout(fm_pipeline_desc *desc, const fm_stage *stage)
 fm_status stage_groups(uint32_t groups[3], const fm_device_caps *caps, uint64_t invocations,
                        fm_error *err)
 {
-    const uint64_t needed = (invocations + GROUP_SIZE - 1) / GROUP_SIZE;
+    const uint64_t needed = (invocations + STAGE_GROUP_SIZE - 1) / STAGE_GROUP_SIZE;
     const uint64_t wide = needed < caps->max_groups[0] ? needed : caps->max_groups[0];
     const uint64_t high = wide > 0 ? (needed + wide - 1) / wide : 0;
     if (high > caps->max_groups[1])
