@@ -88,6 +88,14 @@ static float ulp_depth(uint32_t i)
     return depth;
 }
 
+/* Exactly 0, then as uniform, then exactly 1; one layer is at 0. */
+static float ends_depth(uint32_t i, uint32_t count)
+{
+    if (i == 0)
+        return 0.0f;
+    return i + 1 == count ? 1.0f : uniform_depth(i, count);
+}
+
 /* Uniform in [-1, 1]. */
 static double random_signed(uint64_t *state)
 {
@@ -129,6 +137,15 @@ static void fill_depths(fm_scene *scene)
             break;
         case FM_DEPTHS_SLOPED:
             sloped_plane(&scene->layers[i], &state);
+            break;
+        case FM_DEPTHS_EQUAL:
+            scene->layers[i].depth = 0.5f;
+            break;
+        case FM_DEPTHS_STEP24:
+            scene->layers[i].depth = (float)ldexp((double)i + 1.0, -24);
+            break;
+        case FM_DEPTHS_ENDS:
+            scene->layers[i].depth = ends_depth(i, n);
             break;
         }
     }
@@ -198,13 +215,16 @@ static void fill_order(fm_scene *scene)
     }
 }
 
-/* How many layers keep exact, different depths below 1. */
+/* How many layers keep the depths that were asked for, exactly. */
 static uint32_t max_layers(fm_depths depths)
 {
     switch (depths) {
     case FM_DEPTHS_UNIFORM:
     case FM_DEPTHS_COPLANAR:
     case FM_DEPTHS_SLOPED:
+    case FM_DEPTHS_EQUAL:
+    case FM_DEPTHS_STEP24:
+    case FM_DEPTHS_ENDS:
         return (1u << 24) - 1;
     case FM_DEPTHS_CLUSTERED:
         return CLUSTERS << 16;

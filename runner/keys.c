@@ -40,7 +40,7 @@ const fm_key fm_keys[] = {
       .values = { "random", "random-cell", "ascending", "descending", "cell-major" },
       .fallback = "random", .help = "in which layers arrive" },
     { "depths", FM_KEY_ENUM, LAYERS, AT(depths),
-      .values = { "uniform", "clustered", "coplanar", "ulp", "sloped" },
+      .values = { "uniform", "clustered", "coplanar", "ulp", "sloped", "equal", "step24", "ends" },
       .fallback = "uniform", .help = "of the layers" },
     { "colours", FM_KEY_ENUM, LAYERS, AT(colours), .values = { "hash", "cycle", "grey" },
       .fallback = "hash", .help = "of the layers" },

@@ -249,7 +249,7 @@ static void worsen(fm_case_result *kept, uint32_t launch, fm_case_status status,
 static bool depths_may_tie(const fm_settings *settings)
 {
     return settings->generator == FM_GENERATOR_MESH || settings->depths == FM_DEPTHS_COPLANAR ||
-           settings->depths == FM_DEPTHS_SLOPED;
+           settings->depths == FM_DEPTHS_EQUAL || settings->depths == FM_DEPTHS_SLOPED;
 }
 
 /* Only launch 0 is checked against truth; an exact method's later images must equal that one. */

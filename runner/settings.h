@@ -31,6 +31,9 @@ typedef enum fm_depths {
     FM_DEPTHS_COPLANAR,  /* pairs of layers share a depth */
     FM_DEPTHS_ULP,       /* neighbouring floats from 0.5 on */
     FM_DEPTHS_SLOPED,    /* planes that cross one another */
+    FM_DEPTHS_EQUAL,     /* all layers at 1/2 */
+    FM_DEPTHS_STEP24,    /* (i + 1) 2^-24: what 24 bits can tell apart */
+    FM_DEPTHS_ENDS,      /* the first at exactly 0, the last at exactly 1, others uniform */
 } fm_depths;
 
 typedef enum fm_colours {
@@ -113,7 +116,7 @@ typedef struct fm_key {
     size_t offset;          /* in fm_settings */
     double low, high;       /* numbers: inclusive range */
     const char *fallback;   /* default, as text */
-    const char *values[8];  /* enums */
+    const char *values[10]; /* enums */
     const char *unit;       /* "px", "" */
     const char *help;       /* one line */
     fm_generator generator; /* scene keys: which generator reads it ... */

@@ -133,7 +133,35 @@ static void ulp_depths_are_neighbours(void **state)
     scene_destroy(scene);
 }
 
-static void coplanar_layers_share_depths_in_pairs(void **state)
+static void step24_depths_are_multiples_of_two_to_the_minus_24(void **state)
+{
+    (void)state;
+    fm_settings s = layers_settings(1000);
+    s.depths = FM_DEPTHS_STEP24;
+    fm_scene *scene = create(&s);
+    for (uint32_t i = 0; i < 1000; i++)
+        assert_true(ldexp((double)scene->layers[i].depth, 24) == i + 1.0);
+    scene_destroy(scene);
+}
+
+static void ends_depths_start_at_zero_and_end_at_one(void **state)
+{
+    (void)state;
+    static const uint32_t counts[] = { 1, 2, 3, 8, 127, 128 };
+    for (size_t c = 0; c < sizeof counts / sizeof counts[0]; c++) {
+        const uint32_t n = counts[c];
+        fm_settings s = layers_settings(n);
+        s.depths = FM_DEPTHS_ENDS;
+        fm_scene *scene = create(&s);
+        assert_true(scene->layers[0].depth == 0.0f);
+        for (uint32_t i = 1; i < n; i++)
+            assert_true(scene->layers[i - 1].depth < scene->layers[i].depth);
+        assert_true(n == 1 || scene->layers[n - 1].depth == 1.0f);
+        scene_destroy(scene);
+    }
+}
+
+static void layers_share_depths_in_pairs_or_all_of_them(void **state)
 {
     (void)state;
     fm_settings s = layers_settings(9);
@@ -141,6 +169,11 @@ static void coplanar_layers_share_depths_in_pairs(void **state)
     fm_scene *scene = create(&s);
     for (uint32_t i = 1; i < 9; i++)
         assert_true((scene->layers[i].depth == scene->layers[i - 1].depth) == (i % 2 == 1));
+    scene_destroy(scene);
+    s.depths = FM_DEPTHS_EQUAL;
+    scene = create(&s);
+    for (uint32_t i = 0; i < 9; i++)
+        assert_true(scene->layers[i].depth == 0.5f);
     scene_destroy(scene);
 }
 
@@ -437,7 +470,9 @@ int main(void)
         cmocka_unit_test(layers_scene_has_no_mesh),
         cmocka_unit_test(uniform_depths_are_exact_and_below_one),
         cmocka_unit_test(ulp_depths_are_neighbours),
-        cmocka_unit_test(coplanar_layers_share_depths_in_pairs),
+        cmocka_unit_test(layers_share_depths_in_pairs_or_all_of_them),
+        cmocka_unit_test(step24_depths_are_multiples_of_two_to_the_minus_24),
+        cmocka_unit_test(ends_depths_start_at_zero_and_end_at_one),
         cmocka_unit_test(clustered_depths_make_eight_clusters),
         cmocka_unit_test(sloped_planes_stay_in_range_and_cross),
         cmocka_unit_test(sloped_fragments_lie_on_their_plane),
