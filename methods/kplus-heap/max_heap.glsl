@@ -32,14 +32,15 @@ uint sift_down(uvec2 pixel, uint bits)
     uint at = 0u, child = 1u;
     FM_LOOP while (child < K) {
         uint sibling = min(child + 1u, K - 1u); // the last level may be short
-        uint child_bits = fragments[array_slot(pixel, child, K)].x;
-        uint sibling_bits = fragments[array_slot(pixel, sibling, K)].x;
-        child = sibling_bits > child_bits ? sibling : child;
-        child_bits = max(child_bits, sibling_bits);
-        if (child_bits <= bits)
+        uvec2 item = fragments[array_slot(pixel, child, K)];
+        uvec2 other = fragments[array_slot(pixel, sibling, K)];
+        if (other.x > item.x) {
+            item = other;
+            child = sibling;
+        }
+        if (item.x <= bits)
             break;
-        fragments[array_slot(pixel, at, K)] =
-            uvec2(child_bits, fragments[array_slot(pixel, child, K)].y);
+        fragments[array_slot(pixel, at, K)] = item;
         at = child;
         child = 2u * at + 1u;
     }
