@@ -28,17 +28,20 @@ static void add_fact(fm_text *page, const char *name, const char *value)
     text_add(page, "</dd>\n");
 }
 
-static size_t count_status(const fm_result_files *results, const char *status)
+static size_t count_outcome(const fm_result_files *results, fm_case_status outcome)
 {
     size_t count = 0;
     for (size_t i = 0; i < results->count; i++)
-        count += strcmp(results->cases[i].status, status) == 0;
+        count += results->cases[i].outcome == outcome;
     return count;
 }
 
 void page_begin(fm_text *page, const fm_result_files *results)
 {
     const fm_provenance *manifest = results->manifest;
+    const size_t ok = count_outcome(results, FM_CASE_OK);
+    const size_t not_supported = count_outcome(results, FM_CASE_NOT_SUPPORTED);
+    const size_t wrong_image = count_outcome(results, FM_CASE_WRONG_IMAGE);
     text_add(page,
              "<!doctype html>\n<html lang=en><head><meta charset=utf-8>\n"
              "<meta name=viewport content=\"width=device-width, initial-scale=1\">\n"
@@ -47,10 +50,8 @@ void page_begin(fm_text *page, const fm_result_files *results)
     text_add(page,
              "<h1>fragmark report</h1>\n<p class=faint>%zu cases: %zu ok, %zu not supported, "
              "%zu with a wrong image, %zu that failed or were skipped.</p>\n<dl>\n",
-             results->count, count_status(results, "ok"), count_status(results, "not_supported"),
-             count_status(results, "wrong_image"),
-             results->count - count_status(results, "ok") - count_status(results, "not_supported") -
-                 count_status(results, "wrong_image"));
+             results->count, ok, not_supported, wrong_image,
+             results->count - ok - not_supported - wrong_image);
     add_fact(page, "what", provenance_fact(manifest, "command"));
     for (size_t i = 0; i < manifest->device_count; i++) {
         char where[256];

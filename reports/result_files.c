@@ -75,11 +75,6 @@ static const struct {
 };
 enum { COLUMN_COUNT = sizeof columns / sizeof columns[0] };
 
-static const char *const statuses[] = {
-    "ok",          "not_supported", "wrong_image", "crash", "timeout", "out_of_memory",
-    "device_lost", "plugin_error",  "skipped",
-};
-
 static fm_status need_column(size_t *column, const fm_table *table, const char *name, fm_error *err)
 {
     *column = table_column(table, name);
@@ -93,15 +88,12 @@ static fm_status need_column(size_t *column, const fm_table *table, const char *
 
 static fm_status check_case(const fm_result_files *results, size_t row, fm_error *err)
 {
-    const fm_case_row *result = &results->cases[row];
+    fm_case_row *result = &results->cases[row];
     const char *path = results->summary->path;
     uint32_t line = results->summary->lines[row];
-    for (size_t i = 0; i < sizeof statuses / sizeof statuses[0]; i++)
-        if (strcmp(statuses[i], result->status) == 0)
-            goto known;
-    return fm_fail(err, FM_INVALID, "%s:%u: status \"%.40s\" is none of ok, not_supported, ...",
-                   path, line, result->status);
-known:
+    if (!case_status_parse(&result->outcome, result->status))
+        return fm_fail(err, FM_INVALID, "%s:%u: status \"%.40s\" is none of ok, not_supported, ...",
+                       path, line, result->status);
     if (result->id[0] == '\0' || strlen(result->id) > 64 || strchr(result->id, '/') != NULL)
         return fm_fail(err, FM_INVALID, "%s:%u: case_id \"%.80s\" is not an id", path, line,
                        result->id);
@@ -120,8 +112,8 @@ static void add_look(fm_case_row *result, const fm_provenance *manifest)
         result->look = (fm_method_info){
             .id = result->method, .title = result->method, .citation = "", .version = ""
         };
-    result->is_ok = strcmp(result->status, "ok") == 0;
-    result->is_measured = (result->is_ok || strcmp(result->status, "wrong_image") == 0) &&
+    result->is_ok = result->outcome == FM_CASE_OK;
+    result->is_measured = (result->is_ok || result->outcome == FM_CASE_WRONG_IMAGE) &&
                           isfinite(result->frame_ms) && result->frame_ms > 0.0;
     result->is_software = device != NULL && device->is_software;
     result->total_rmse = result->rmse;
@@ -153,10 +145,10 @@ static fm_status read_cases(fm_result_files *results, fm_error *err)
             if (status != FM_OK)
                 return status;
         }
-        add_look(&results->cases[row], results->manifest);
-        fm_status status = check_case(results, row, err);
+        const fm_status status = check_case(results, row, err);
         if (status != FM_OK)
             return status;
+        add_look(&results->cases[row], results->manifest);
     }
     results->count = table->row_count;
     return FM_OK;

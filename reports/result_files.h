@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "error.h"
+#include "outcome.h"
 #include "provenance.h"
 #include "table.h"
 
@@ -21,7 +22,8 @@ typedef struct fm_case_row {
     double fragments_generated, fragments_stored, fragments_lost, missing, extra, misordered;
     double depth_ulp_max, rmse, psnr_db, max_abs, ssim, flip, truncation_rmse, distinct_images;
     double frame_wall_ms, fragments_per_s;
-    double total_rmse; /* from samples.csv; rmse where the run has none */
+    double total_rmse;      /* from samples.csv; rmse where the run has none */
+    fm_case_status outcome; /* of the word `status` */
     fm_method_info look;
     bool is_ok;
     bool is_measured; /* has a time, and its error: ok, or wrong_image */

@@ -13,7 +13,6 @@
 #include <unistd.h>
 
 #include "clock.h"
-#include "outcome.h"
 #include "text.h"
 
 enum {
@@ -72,15 +71,23 @@ void launcher_close(const fm_launcher *launcher)
     sigprocmask(SIG_SETMASK, &launcher->previous, NULL);
 }
 
-json_t *launch_result(const char *status, const char *message)
+json_t *launch_result(fm_case_status status, const char *message)
 {
     /* Logs may hold bytes that are no UTF-8, which JSON refuses. */
     char *copy = strdup(message);
     if (copy != NULL)
         text_make_utf8(copy);
-    json_t *result = json_pack("{s:s, s:s}", "status", status, "message", copy != NULL ? copy : "");
+    json_t *result = json_pack("{s:s, s:s}", "status", case_status_name(status), "message",
+                               copy != NULL ? copy : "");
     free(copy);
     return result;
+}
+
+fm_case_status launch_status(const json_t *result)
+{
+    fm_case_status status = FM_CASE_CRASH;
+    case_status_parse(&status, json_string_value(json_object_get(result, "status")));
+    return status;
 }
 
 /* Between fork and exec: async-signal-safe calls only. */
@@ -242,8 +249,9 @@ static json_t *result_of_death(const ending *end, const fm_launch_desc *desc, of
     snprintf(message, sizeof message, "%s%s%s%s", how,
              words[0] != '\0' ? "; its last words: \"" : "", words, words[0] != '\0' ? "\"" : "");
     if (end->is_timed_out)
-        return launch_result("timeout", message);
-    return launch_result(died_of_memory(end, desc, words) ? "out_of_memory" : "crash", message);
+        return launch_result(FM_CASE_TIMEOUT, message);
+    return launch_result(died_of_memory(end, desc, words) ? FM_CASE_OUT_OF_MEMORY : FM_CASE_CRASH,
+                         message);
 }
 
 /* What is wrong with a result's form; NULL: nothing. */
@@ -284,7 +292,7 @@ static json_t *read_result(const ending *end, const fm_launch_desc *desc, off_t 
     if (end->is_timed_out || !WIFEXITED(end->wait_status) || access(desc->result, R_OK) != 0)
         return result_of_death(end, desc, log_from);
     if (text_read_file(&bytes, &count, desc->result, result_max_bytes, &below) != FM_OK)
-        return launch_result("crash", below.message);
+        return launch_result(FM_CASE_CRASH, below.message);
     result = json_loadb(bytes, count, JSON_REJECT_DUPLICATES, &fault);
     free(bytes);
     const char *why = result == NULL ? fault.text : result_fault(result);
@@ -293,7 +301,7 @@ static json_t *read_result(const ending *end, const fm_launch_desc *desc, off_t 
     json_decref(result);
     snprintf(message, sizeof message, "the worker's result cannot be used: %s (exit status %d)",
              why, WEXITSTATUS(end->wait_status));
-    return launch_result("crash", message);
+    return launch_result(FM_CASE_CRASH, message);
 }
 
 fm_status launch_worker(fm_launch_outcome *outcome, const fm_launcher *launcher,

@@ -11,6 +11,7 @@
 #include <stdint.h>
 
 #include "error.h"
+#include "outcome.h"
 
 typedef struct fm_launcher {
     sigset_t watched, previous;
@@ -49,6 +50,8 @@ fm_status launch_worker(fm_launch_outcome *outcome, const fm_launcher *launcher,
                         const fm_launch_desc *desc, fm_error *err);
 
 /* {"status": status, "message": message}; NULL without memory. */
-json_t *launch_result(const char *status, const char *message);
+json_t *launch_result(fm_case_status status, const char *message);
+/* The status of a result; FM_CASE_CRASH where it names none. */
+fm_case_status launch_status(const json_t *result);
 
 #endif

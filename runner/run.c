@@ -147,8 +147,8 @@ static fm_status bury_killers(run_state *run, fm_error *err)
             const fm_launch_state *state = &run->results->cases[i].launches[launch];
             if (state->is_done || state->begins < 2)
                 continue;
-            json_t *result =
-                launch_result("crash", "began twice and never ended: the whole run died with it");
+            json_t *result = launch_result(
+                FM_CASE_CRASH, "began twice and never ended: the whole run died with it");
             status = end_launch(run, i, launch, result, err);
             json_decref(result);
         }
@@ -185,7 +185,6 @@ static fm_status ask(fm_launch_outcome *outcome, run_state *run, const char *nam
     char request_path[FM_PATH_MAX_BYTES], result_path[FM_PATH_MAX_BYTES],
         log_path[FM_PATH_MAX_BYTES];
     struct stat log;
-    fm_case_status verdict = FM_CASE_CRASH;
     *outcome = (fm_launch_outcome){ 0 };
     fm_status status = path_of(request_path, run, "work", name, ".request.json", err);
     if (status == FM_OK)
@@ -210,8 +209,7 @@ static fm_status ask(fm_launch_outcome *outcome, run_state *run, const char *nam
     if (status != FM_OK)
         return status;
     run->stop_signal = outcome->stop_signal;
-    case_status_parse(&verdict, json_string_value(json_object_get(outcome->result, "status")));
-    if (outcome->is_interrupted || verdict <= FM_CASE_WRONG_IMAGE) {
+    if (outcome->is_interrupted || launch_status(outcome->result) <= FM_CASE_WRONG_IMAGE) {
         unlink(request_path);
         unlink(result_path);
     }
@@ -240,7 +238,7 @@ static fm_status fail_truth(run_state *run, size_t job, const json_t *result, fm
     char message[2048];
     const char *below = json_string_value(json_object_get(result, "message"));
     snprintf(message, sizeof message, "no truth: %.2000s", below != NULL ? below : "");
-    json_t *verdict = launch_result(json_string_value(json_object_get(result, "status")), message);
+    json_t *verdict = launch_result(launch_status(result), message);
     for (size_t i = 0; i < run->plan->count && status == FM_OK; i++) {
         if (run->truths.of_case[i] != job || !is_pending(run, i))
             continue;
@@ -288,8 +286,7 @@ static fm_status capture_truth(run_state *run, size_t job, fm_error *err)
     status = ask(&outcome, run, name, &request, err);
     if (status != FM_OK || outcome.is_interrupted)
         return status;
-    const char *verdict = json_string_value(json_object_get(outcome.result, "status"));
-    if (verdict == NULL || strcmp(verdict, "ok") != 0)
+    if (launch_status(outcome.result) != FM_CASE_OK)
         status = fail_truth(run, job, outcome.result, err);
     progress_end(&run->progress, outcome.seconds);
     json_decref(outcome.result);
