@@ -16,10 +16,17 @@ uint32_t measure_wanted(const fm_method_desc *method, uint32_t k)
     case FM_KEEPS_NEAREST:
         return 1;
     case FM_KEEPS_ALL:
+    case FM_KEEPS_ALL_IN_K:
     case FM_KEEPS_COUNT:
         break;
     }
     return UINT32_MAX;
+}
+
+uint32_t measure_places(const fm_method_desc *method, uint32_t k)
+{
+    const uint32_t wanted = method->keeps == FM_KEEPS_ALL_IN_K ? k : measure_wanted(method, k);
+    return wanted == UINT32_MAX ? 0 : wanted;
 }
 
 static uint64_t sum_passes(const fm_frame_result *frame)

@@ -50,6 +50,8 @@ typedef struct fm_measure_desc {
 
 /* Fragments of a pixel that truth wants of a method: UINT32_MAX means all. */
 uint32_t measure_wanted(const fm_method_desc *method, uint32_t k);
+/* Fragments of a pixel that it has places for, as truth_kept counts them: 0 means all. */
+uint32_t measure_places(const fm_method_desc *method, uint32_t k);
 
 fm_status measure_case(fm_measurement *measurement, const fm_measure_desc *desc, fm_error *err);
 void measurement_free(fm_measurement *measurement);

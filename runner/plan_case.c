@@ -86,7 +86,7 @@ static void forget_unused_scene_keys(fm_settings *settings)
 
 static void forget_unused_method_keys(fm_settings *settings, const fm_method_desc *method)
 {
-    if (method->keeps != FM_KEEPS_K_NEAREST)
+    if (!plugin_has_k(method))
         settings->k = 0;
     if (!has_exclusive_pass(method))
         settings->lock = FM_LOCK_SPIN;
@@ -171,7 +171,7 @@ static void skip_for_choice(fm_case *made, const fm_method_desc *method)
 static void skip_for_k(fm_case *made, const fm_method_desc *method)
 {
     const uint32_t k = made->settings.k;
-    if (method->keeps != FM_KEEPS_K_NEAREST)
+    if (!plugin_has_k(method))
         return;
     if (k == 0)
         snprintf(made->skip, sizeof made->skip, "k = none: the method keeps the k nearest");

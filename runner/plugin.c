@@ -8,6 +8,11 @@
 #include <string.h>
 #include <unistd.h>
 
+bool plugin_has_k(const fm_method_desc *method)
+{
+    return method->keeps == FM_KEEPS_K_NEAREST || method->keeps == FM_KEEPS_ALL_IN_K;
+}
+
 /* The part behind the last slash. */
 static const char *file_of(const char *path)
 {

@@ -15,6 +15,9 @@ typedef struct fm_plugin {
     void *handle;
 } fm_plugin;
 
+/* Whether k is an axis of the method. */
+bool plugin_has_k(const fm_method_desc *method);
+
 /* What a plugin folder holds under one id: opened, or refused with the reason. */
 typedef struct fm_plugin_entry {
     char id[64];

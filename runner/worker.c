@@ -321,7 +321,7 @@ static fm_status write_images(launch_job *job)
 static fm_status measure(launch_job *job)
 {
     const char *common = text_of(job, "common");
-    const uint32_t wanted = measure_wanted(job->method->method, job->settings.k);
+    const uint32_t places = measure_places(job->method->method, job->settings.k);
     const fm_instance_desc method = {
         .stage = job->stage,
         .method = job->method->method,
@@ -330,7 +330,7 @@ static fm_status measure(launch_job *job)
         .choices = job->choices,
         .choice_count = job->choice_count,
         .fragments = job->truth->fragment_count,
-        .fragments_kept = truth_kept(job->truth, wanted == UINT32_MAX ? 0 : wanted),
+        .fragments_kept = truth_kept(job->truth, places),
     };
     fm_instance_desc floor = method;
     floor.method = job->floor->method;

@@ -130,13 +130,13 @@ void kit_tell(char text[256], const kit_way *way)
 static void fill_desc(fm_instance_desc *desc, const kit_scene *scene, const fm_plugin *plugin,
                       const fm_settings *settings)
 {
-    const uint32_t wanted = measure_wanted(plugin->method, settings->k);
+    const uint32_t places = measure_places(plugin->method, settings->k);
     *desc = (fm_instance_desc){
         .method = plugin->method,
         .folders = { plugin->folder, scene->kit->plugins.common_folder },
         .settings = settings,
         .fragments = scene->truth->fragment_count,
-        .fragments_kept = truth_kept(scene->truth, wanted == UINT32_MAX ? 0 : wanted),
+        .fragments_kept = truth_kept(scene->truth, places),
     };
 }
 
@@ -160,7 +160,7 @@ static fm_status ask(asked_case *asked, kit_scene *scene, const kit_way *way, fm
     for (size_t i = 0; i < choice_count; i++)
         if (option_find(entry->plugin->method, asked->choices[i].name) == NULL)
             fail_msg("%s has no option '%s'", way->method, asked->choices[i].name);
-    if (entry->plugin->method->keeps != FM_KEEPS_K_NEAREST)
+    if (!plugin_has_k(entry->plugin->method))
         asked->settings.k = 0;
     scene->scene->settings.buffers = asked->settings.buffers;
     fill_desc(&asked->desc, scene, entry->plugin, &asked->settings);

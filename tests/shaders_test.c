@@ -46,7 +46,7 @@ static void build_options(outcomes *seen, kit_scene *scene, const fm_method_desc
 static void build_ks(outcomes *seen, kit_scene *scene, const fm_method_desc *method, uint32_t feed)
 {
     static const char *const ks[] = { "k=8", "k=1", "k=64" };
-    const size_t count = method->keeps == FM_KEEPS_K_NEAREST ? sizeof ks / sizeof ks[0] : 1;
+    const size_t count = plugin_has_k(method) ? sizeof ks / sizeof ks[0] : 1;
     for (size_t i = 0; i < count; i++) {
         build(seen, scene, &(kit_way){ method->id, feed, ks[i] }, false);
         build(seen, scene, &(kit_way){ method->id, feed, ks[i] }, true);

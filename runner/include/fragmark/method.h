@@ -99,6 +99,7 @@ typedef enum fm_keeps {
     FM_KEEPS_K_NEAREST, /* min(k, all) nearest; k is an axis */
     FM_KEEPS_ALL,       /* every fragment; k is not used */
     FM_KEEPS_NEAREST,   /* one; k is not used */
+    FM_KEEPS_ALL_IN_K,  /* every fragment, approximated in k places; k is an axis */
     FM_KEEPS_COUNT
 } fm_keeps;
 
