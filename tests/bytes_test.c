@@ -87,12 +87,12 @@ static const struct formula {
     const char *method;
     uint64_t (*bytes)(const workload *);
 } formulas[] = {
-    { "kplus-array", kplus }, { "kplus-heap", kplus },          { "kb", k_buffer },
-    { "kb-mdt64", k_buffer }, { "kb-multi", flagged_k_buffer }, { "kb-ll", sorted_list },
-    { "kb-mdt32", k_buffer }, { "kb-ps", locked_k_buffer },     { "ab-array", a_buffer },
-    { "z-buffer", z_buffer }, { "ab-ll", linked_list },         { "f2b", peeling },
-    { "f2b-k", peeling },     { "dual", dual_peeling },         { "wboit", weighted },
-    { "kb-sr", routed },      { "kb-sr-counter", counted },
+    { "kplus-array", kplus }, { "kplus-heap", kplus },     { "kb", k_buffer },
+    { "kb-mdt64", k_buffer }, { "mlab", locked_k_buffer }, { "kb-multi", flagged_k_buffer },
+    { "kb-ll", sorted_list }, { "kb-mdt32", k_buffer },    { "kb-ps", locked_k_buffer },
+    { "ab-array", a_buffer }, { "z-buffer", z_buffer },    { "ab-ll", linked_list },
+    { "f2b", peeling },       { "f2b-k", peeling },        { "dual", dual_peeling },
+    { "wboit", weighted },    { "kb-sr", routed },         { "kb-sr-counter", counted },
 };
 
 static void expect_formula(const char *method, const workload *w, const fm_measurement *m)
