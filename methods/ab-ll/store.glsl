@@ -1,16 +1,6 @@
-#include "ab-ll/node.glsl"
+#include "ab-ll/push.glsl"
 
 void store(uvec2 pixel, float depth, uint colour)
 {
-    // All fragments collide here; the counter gives each a node of its own.
-    uint node = atomicAdd(allocated[0], NODE_WORDS);
-    if (node + NODE_WORDS > fm_length_nodes) {
-        atomicAdd(allocated[1], NODE_WORDS); // the pool grows by that many, and the frame runs again
-        return;
-    }
-    uvec2 fragment = fm_pack(depth, colour);
-    nodes[node] = fragment.x;
-    nodes[node + 1u] = fragment.y;
-    // Fragments of a pixel collide; each exchange links one node in front. No one walks the list yet.
-    nodes[node + 2u] = atomicExchange(heads[fm_pixel_index(pixel)], node + 1u);
+    push(fm_pixel_index(pixel), depth, colour);
 }
