@@ -1,0 +1,45 @@
+#include "fragmark/method.h"
+
+enum { NODE_WORDS = 3, NODES_PER_PIXEL = 1, BUCKETS = 8 };
+
+/* The pool starts with a node a pixel and grows to one a fragment. */
+static uint64_t bytes(const fm_workload *workload)
+{
+    const uint64_t pixels = (uint64_t)workload->width_px * workload->height_px;
+    const uint64_t initial = pixels * NODES_PER_PIXEL;
+    const uint64_t nodes = workload->fragments > initial ? workload->fragments : initial;
+    return 4 * ((BUCKETS + 2) * pixels + 2 + NODE_WORDS * nodes);
+}
+
+const fm_method_desc fm_method = {
+    .abi = FM_ABI,
+    .size_bytes = sizeof(fm_method_desc),
+    .id = "ab-ll-bucket",
+    .title = "LL-BUN",
+    .citation = "Yang, Hensley, Gruen, Thibieroz 2010, doi:10.1111/j.1467-8659.2010.01725.x; uniform "
+                "buckets of depth as in the code of Vasilakis, Fudos",
+    .version = "1",
+    .traits = FM_TRAIT_EXACT | FM_TRAIT_SORTS_IN_RESOLVE,
+    .keeps = FM_KEEPS_ALL,
+    .family = FM_FAMILY_LINKED_LIST,
+    .marker = FM_MARKER_PLUS,
+    .resources = {
+        { .name = "heads", .extent = { .per_pixel = BUCKETS }, .used = { .per_pixel = BUCKETS } },
+        { .name = "bounds", .extent = { .per_pixel = 2 }, .used = { .per_pixel = 2 } },
+        { .name = "allocated", .extent = { .constant = 2 } }, /* words taken; words without room */
+        { .name = "nodes", .extent = { .per_pixel = NODE_WORDS * NODES_PER_PIXEL },
+          .sizing = FM_SIZE_GROW, .overflow = "overflow",
+          .used = { .per_fragment = NODE_WORDS } },
+    },
+    .totals = { { .name = "overflow", .resource = "allocated", .index = 1, .pass = "store" } },
+    .passes = {
+        { .name = "clear", .kind = FM_PASS_PIXELS, .shader = "clear.glsl",
+          .writes = { "heads", "bounds", "allocated" } },
+        { .name = "range", .shader = "range.glsl", .writes = { "bounds" } },
+        { .name = "store", .shader = "store.glsl", .reads = { "bounds" },
+          .writes = { "heads", "allocated", "nodes" } },
+        { .name = "resolve", .kind = FM_PASS_PIXELS, .shader = "resolve.glsl", .emits = true,
+          .reads = { "heads", "bounds", "nodes" } },
+    },
+    .bytes = bytes,
+};
