@@ -1,0 +1,44 @@
+#include "fragmark/method.h"
+
+enum { PAGE_WORDS = 9, OVERFLOW = 0, TAKEN = 1 };
+
+/* The pool starts with a page and grows to what is taken. */
+static uint64_t bytes(const fm_workload *workload)
+{
+    const uint64_t pixels = (uint64_t)workload->width_px * workload->height_px;
+    const uint64_t taken = workload->totals[TAKEN];
+    return 4 * (2 * pixels + 2 + (taken > PAGE_WORDS ? taken : PAGE_WORDS));
+}
+
+const fm_method_desc fm_method = {
+    .abi = FM_ABI,
+    .size_bytes = sizeof(fm_method_desc),
+    .id = "ab-ll-paged",
+    .title = "LL-Paged",
+    .citation = "Crassin 2010, OpenGL 4.0+ A-buffer V2.0: Linked lists of fragment pages",
+    .version = "1",
+    .traits = FM_TRAIT_EXACT | FM_TRAIT_SORTS_IN_RESOLVE,
+    .keeps = FM_KEEPS_ALL,
+    .family = FM_FAMILY_LINKED_LIST,
+    .marker = FM_MARKER_SQUARE,
+    .resources = {
+        { .name = "heads", .extent = { .per_pixel = 1 }, .used = { .per_pixel = 1 } },
+        { .name = "counters", .extent = { .per_pixel = 1 }, .used = { .per_pixel = 1 } },
+        { .name = "allocated", .extent = { .constant = 2 } }, /* words taken; words without room */
+        { .name = "pages", .extent = { .constant = PAGE_WORDS }, .sizing = FM_SIZE_GROW,
+          .overflow = "overflow", .used = { .per_fragment = 2 } },
+    },
+    .totals = {
+        [OVERFLOW] = { .name = "overflow", .resource = "allocated", .index = 1, .pass = "store" },
+        [TAKEN] = { .name = "taken", .resource = "allocated", .index = 0, .pass = "store" },
+    },
+    .passes = {
+        { .name = "clear", .kind = FM_PASS_PIXELS, .shader = "clear.glsl",
+          .writes = { "heads", "counters", "allocated" } },
+        { .name = "store", .shader = "store.glsl", .exclusive = true,
+          .writes = { "heads", "counters", "allocated", "pages" } },
+        { .name = "resolve", .kind = FM_PASS_PIXELS, .shader = "resolve.glsl", .emits = true,
+          .reads = { "heads", "counters", "pages" } },
+    },
+    .bytes = bytes,
+};
