@@ -14,8 +14,8 @@ const fm_method_desc fm_method = {
     .marker = FM_MARKER_CROSS,
     .options = { { .name = "depth_bits", .values = { "exact", "published" },
                    .help = "the float's bits, or the k+-buffer paper's quantisation" },
-                 { .name = "layout", .values = { "pixel", "layer" },
-                   .help = "a pixel's fragments side by side, or the i-th of all pixels" } },
+                 { .name = "layout", .values = { "pixel", "layer", "tile" },
+                   .help = "side by side: a pixel's, the i-th of all pixels, or of a tile" } },
     .resources = {
         { .name = "keys", .extent = { .per_pixel_k = 1 }, .used = { .per_kept = 1 } },
         { .name = "colours", .extent = { .per_pixel_k = 1 }, .used = { .per_kept = 1 } },
