@@ -150,6 +150,30 @@ static error_t parse_running(int key, char *text, struct argp_state *state)
 
 const struct argp cli_selection_argp = { .options = selection_options, .parser = parse_selection };
 const struct argp cli_running_argp = { .options = running_options, .parser = parse_running };
+const struct argp_child cli_spec_children[] = {
+    { &cli_selection_argp, 0, "What is measured:", 1 },
+    { &cli_running_argp, 0, "How it is run:", 2 },
+    { 0 },
+};
+
+error_t cli_parse_spec(int key, char *text, struct argp_state *state)
+{
+    fm_arguments *arguments = state->input;
+    fm_error err = { 0 };
+    switch (key) {
+    case ARGP_KEY_INIT:
+        state->child_inputs[0] = state->input;
+        state->child_inputs[1] = state->input;
+        return 0;
+    case ARGP_KEY_ARG:
+        if (!arguments->takes_figures && arguments->positional.count > 0)
+            argp_error(state, "'%s': one SPEC.yml only", text);
+        require(state, names_add(&arguments->positional, text, &err), &err);
+        return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
 
 /* argp breaks lines at 79 columns without an indent: done here, under the column of texts. */
 static void add_wrapped(fm_text *all, const char *text)

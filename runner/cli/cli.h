@@ -54,7 +54,8 @@ void names_free(fm_names *names);
 /* What run, plan and reproduce take. */
 typedef struct fm_arguments {
     const fm_cli *cli;
-    fm_names positional; /* a spec, or figures */
+    bool takes_figures;
+    fm_names positional; /* one spec; figures where it takes them */
     fm_names methods, scenes, devices, feeds, axes, plugin_folders;
     const char *directory; /* -o; NULL: not given */
     uint32_t timeout_s;
@@ -65,6 +66,11 @@ typedef struct fm_arguments {
 /* Options that these subcommands have in common; children of their argp. */
 extern const struct argp cli_selection_argp; /* --method ... -a, --plugin-dir, --seed */
 extern const struct argp cli_running_argp;   /* -o, --timeout ... */
+/* The parser of these subcommands, but for their own options: hands on to both and keeps what is
+ * positional. */
+error_t cli_parse_spec(int key, char *text, struct argp_state *state);
+/* Both, as run and plan show them; ends with {0}. */
+extern const struct argp_child cli_spec_children[];
 /* For argp's help_filter: "\v"-less text that ends with the table of axes. */
 char *cli_axes_help(int key, const char *text, void *input);
 /* -h is --help: argp itself knows -? only. */

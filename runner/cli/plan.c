@@ -16,31 +16,12 @@ static const struct argp_option options[] = {
 static error_t parse(int key, char *text, struct argp_state *state)
 {
     fm_arguments *arguments = state->input;
-    fm_error err = { 0 };
-    switch (key) {
-    case ARGP_KEY_INIT:
-        state->child_inputs[0] = state->input;
-        state->child_inputs[1] = state->input;
-        return 0;
-    case KEY_JSON:
-        arguments->json = true;
-        return 0;
-    case ARGP_KEY_ARG:
-        if (arguments->positional.count > 0)
-            argp_error(state, "'%s': one SPEC.yml only", text);
-        if (names_add(&arguments->positional, text, &err) != FM_OK)
-            cli_argp_fail(state, &err);
-        return 0;
-    default:
-        return ARGP_ERR_UNKNOWN;
-    }
+    if (key != KEY_JSON)
+        return cli_parse_spec(key, text, state);
+    arguments->json = true;
+    return 0;
 }
 
-static const struct argp_child children[] = {
-    { &cli_selection_argp, 0, "What is measured:", 1 },
-    { &cli_running_argp, 0, "How it is run:", 2 },
-    { 0 },
-};
 static const struct argp argp = {
     .options = options,
     .parser = parse,
@@ -54,7 +35,7 @@ static const struct argp argp = {
         "  fragmark plan my.yml --json\n"
         "\n"
         "Axes, with their values and (default):",
-    .children = children,
+    .children = cli_spec_children,
     .help_filter = cli_axes_help,
 };
 

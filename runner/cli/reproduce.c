@@ -16,25 +16,16 @@ static const struct argp_option options[] = {
 static error_t parse(int key, char *text, struct argp_state *state)
 {
     fm_arguments *arguments = state->input;
-    fm_error err = { 0 };
     switch (key) {
-    case ARGP_KEY_INIT:
-        state->child_inputs[0] = state->input;
-        state->child_inputs[1] = state->input;
-        return 0;
     case KEY_SMOKE:
         arguments->smoke = true;
-        return 0;
-    case ARGP_KEY_ARG:
-        if (names_add(&arguments->positional, text, &err) != FM_OK)
-            cli_argp_fail(state, &err);
         return 0;
     case ARGP_KEY_END:
         if (arguments->positional.count == 0)
             argp_error(state, "which figure? `fragmark list figures` names them");
         return 0;
     default:
-        return ARGP_ERR_UNKNOWN;
+        return cli_parse_spec(key, text, state);
     }
 }
 
@@ -194,7 +185,7 @@ static int run_specs(const spec_files *specs, const fm_arguments *arguments, con
 int cli_reproduce(const fm_cli *cli, int argc, char **argv)
 {
     int code;
-    fm_arguments arguments = { .cli = cli };
+    fm_arguments arguments = { .cli = cli, .takes_figures = true };
     fm_figure_list list = { 0 };
     spec_files specs = { 0 };
     fm_error err = { 0 };

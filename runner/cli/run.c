@@ -7,33 +7,8 @@
 
 #include "cli.h"
 
-static error_t parse(int key, char *text, struct argp_state *state)
-{
-    fm_arguments *arguments = state->input;
-    fm_error err = { 0 };
-    switch (key) {
-    case ARGP_KEY_INIT:
-        state->child_inputs[0] = state->input;
-        state->child_inputs[1] = state->input;
-        return 0;
-    case ARGP_KEY_ARG:
-        if (arguments->positional.count > 0)
-            argp_error(state, "'%s': one SPEC.yml only", text);
-        if (names_add(&arguments->positional, text, &err) != FM_OK)
-            cli_argp_fail(state, &err);
-        return 0;
-    default:
-        return ARGP_ERR_UNKNOWN;
-    }
-}
-
-static const struct argp_child children[] = {
-    { &cli_selection_argp, 0, "What is measured:", 1 },
-    { &cli_running_argp, 0, "How it is run:", 2 },
-    { 0 },
-};
 static const struct argp argp = {
-    .parser = parse,
+    .parser = cli_parse_spec,
     .args_doc = "[SPEC.yml]",
     .doc = "Measures methods on scenes: times, memory and errors as CSV, charts and a report."
            "\v"
@@ -47,7 +22,7 @@ static const struct argp argp = {
            "DIR/manifest.json, DIR/report.html.\n"
            "\n"
            "Axes, with their values and (default):",
-    .children = children,
+    .children = cli_spec_children,
     .help_filter = cli_axes_help,
 };
 
