@@ -175,21 +175,22 @@ error_t cli_parse_spec(int key, char *text, struct argp_state *state)
     }
 }
 
-/* argp breaks lines at 79 columns without an indent: done here, under the column of texts. */
+/* argp breaks lines of 79 columns without an indent: done here, under the column of texts, at
+ * blanks and between the values of a list. */
 static void add_wrapped(fm_text *all, const char *text)
 {
-    enum { WIDTH = 79, INDENT = 24 };
+    enum { WIDTH = 78, INDENT = 24 };
     while (*text != '\0') {
         size_t length = strcspn(text, "\n"), cut = length;
         if (length > WIDTH)
-            for (cut = WIDTH; cut > INDENT && text[cut] != ' '; cut--)
+            for (cut = WIDTH; cut > INDENT && text[cut] != ' ' && text[cut - 1] != '|'; cut--)
                 ;
         const bool is_cut = cut < length && cut > INDENT;
         cut = is_cut ? cut : length;
         text_add(all, "%.*s\n", (int)cut, text);
         if (is_cut)
             text_add(all, "%*s", INDENT, "");
-        text += cut + (text[cut] != '\0');
+        text += cut + (text[cut] == ' ' || text[cut] == '\n');
     }
 }
 
