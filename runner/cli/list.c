@@ -2,19 +2,22 @@
 
 #include "cli.h"
 #include "device/device.h"
+#include "list_markdown.h"
 #include "manifest.h"
 
-enum { KEY_JSON = 512, KEY_PLUGINS, DEVICES_MAX = 32 };
+enum { KEY_JSON = 512, KEY_MARKDOWN, KEY_PLUGINS, DEVICES_MAX = 32 };
 
 typedef struct list_arguments {
     const fm_cli *cli;
     const char *what;
     fm_names plugin_folders;
     bool json;
+    bool markdown;
 } list_arguments;
 
 static const struct argp_option options[] = {
     { "json", KEY_JSON, NULL, 0, "as JSON", 0 },
+    { "markdown", KEY_MARKDOWN, NULL, 0, "methods as the table of methods/README.md", 0 },
     { "plugin-dir", KEY_PLUGINS, "DIR", 0, "look for methods here first; repeatable", 0 },
     CLI_HELP_OPTION,
     { 0 },
@@ -57,10 +60,12 @@ static int list_methods(const list_arguments *arguments)
         json_decref(rows);
         return cli_fail(cli, &err);
     }
+    if (arguments->markdown)
+        list_markdown(cli->out, &plugins);
     for (size_t i = 0; i < plugins.count; i++) {
         const fm_plugin_entry *entry = &plugins.entries[i];
         json_array_append_new(rows, method_row(entry));
-        if (arguments->json)
+        if (arguments->json || arguments->markdown)
             continue;
         if (entry->plugin != NULL)
             fprintf(cli->out, "%-18s %-22s %s\n", entry->id,
@@ -185,6 +190,9 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_JSON:
         arguments->json = true;
         return 0;
+    case KEY_MARKDOWN:
+        arguments->markdown = true;
+        return 0;
     case KEY_PLUGINS:
         if (names_add(&arguments->plugin_folders, text, &err) != FM_OK)
             cli_argp_fail(state, &err);
@@ -201,6 +209,8 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case ARGP_KEY_END:
         if (arguments->what == NULL)
             require_known(state, NULL);
+        if (arguments->markdown && (arguments->json || strcmp(arguments->what, "methods") != 0))
+            argp_error(state, "--markdown is for methods, and without --json");
         return 0;
     default:
         return ARGP_ERR_UNKNOWN;
