@@ -5,6 +5,9 @@
 
 typedef struct workload {
     uint64_t pixels, k, n, fragments;
+    uint64_t kept;  /* F_k */
+    uint64_t tiles; /* of 8 x 8 pixels */
+    uint64_t pages; /* of 4 fragments */
 } workload;
 
 /* N pixels, k kept, n layers, F fragments; a fragment is 8 bytes, a counter or a lock 4. */
@@ -83,16 +86,84 @@ static uint64_t sorted_list(const workload *w)
     return linked_list(w) + 20 * w->pixels;
 }
 
+/* Eight heads and two bounds instead of a head. */
+static uint64_t bucketed_list(const workload *w)
+{
+    return linked_list(w) + (8 * 4 + 2 * 4 - 4) * w->pixels;
+}
+
+/* Head, counter and lock; a page is four fragments and a link. */
+static uint64_t paged_list(const workload *w)
+{
+    return 12 * w->pixels + 36 * w->pages + 8;
+}
+
+/* An address more than a_buffer. */
+static uint64_t addressed_a_buffer(const workload *w)
+{
+    return (8 * w->n + 8) * w->pixels;
+}
+
+/* Counter and address; the sums of the scan. */
+static uint64_t scanned(const workload *w)
+{
+    return 8 * w->fragments + 8 * w->pixels + 4 * (2 * w->tiles + 3);
+}
+
+/* Counter and address; one, 30 or 32 shared counters and as many prefix sums. */
+static uint64_t l_buffer(const workload *w)
+{
+    return 8 * w->fragments + 8 * w->pixels + 8;
+}
+
+static uint64_t s_buffer(const workload *w)
+{
+    return 8 * w->fragments + 8 * w->pixels + 8 * 30;
+}
+
+static uint64_t k_of_s_buffer(const workload *w)
+{
+    return 8 * w->fragments + 8 * w->pixels + 8 * 32;
+}
+
+/* A lock more than s_buffer, and only what is kept. */
+static uint64_t kplus_in_s_buffer(const workload *w)
+{
+    return 8 * w->kept + 12 * w->pixels + 8 * 32;
+}
+
 static const struct formula {
     const char *method;
     uint64_t (*bytes)(const workload *);
 } formulas[] = {
-    { "kplus-array", kplus }, { "kplus-heap", kplus },     { "kb", k_buffer },
-    { "kb-mdt64", k_buffer }, { "mlab", locked_k_buffer }, { "kb-multi", flagged_k_buffer },
-    { "kb-ll", sorted_list }, { "kb-mdt32", k_buffer },    { "kb-ps", locked_k_buffer },
-    { "ab-array", a_buffer }, { "z-buffer", z_buffer },    { "ab-ll", linked_list },
-    { "f2b", peeling },       { "f2b-k", peeling },        { "dual", dual_peeling },
-    { "wboit", weighted },    { "kb-sr", routed },         { "kb-sr-counter", counted },
+    { "kplus-array", kplus },
+    { "kplus-heap", kplus },
+    { "kb", k_buffer },
+    { "kb-mdt64", k_buffer },
+    { "mlab", locked_k_buffer },
+    { "kb-multi", flagged_k_buffer },
+    { "kb-ll", sorted_list },
+    { "kb-mdt32", k_buffer },
+    { "kb-ps", locked_k_buffer },
+    { "ab-array", a_buffer },
+    { "z-buffer", z_buffer },
+    { "ab-ll", linked_list },
+    { "f2b", peeling },
+    { "f2b-k", peeling },
+    { "dual", dual_peeling },
+    { "wboit", weighted },
+    { "kb-sr", routed },
+    { "kb-sr-counter", counted },
+    { "ab-ll-bucket", bucketed_list },
+    { "ab-ll-paged", paged_list },
+    { "precalc-fixed", addressed_a_buffer },
+    { "precalc-scan", scanned },
+    { "l-buffer", l_buffer },
+    { "s-buffer", s_buffer },
+    { "kb-ab-array", a_buffer },
+    { "kb-ab-ll", linked_list },
+    { "kb-ab-sb", k_of_s_buffer },
+    { "kplus-sb", kplus_in_s_buffer },
 };
 
 static void expect_formula(const char *method, const workload *w, const fm_measurement *m)
@@ -105,12 +176,29 @@ static void expect_formula(const char *method, const workload *w, const fm_measu
                      (unsigned long long)formulas[i].bytes(w));
 }
 
+static uint64_t tiles_of(const fm_scene *scene)
+{
+    return (uint64_t)((scene->width_px + 7) / 8) * ((scene->height_px + 7) / 8);
+}
+
+static uint64_t pages_of(const fm_truth *truth)
+{
+    const uint64_t pixels = (uint64_t)truth->width_px * truth->height_px;
+    uint64_t pages = 0;
+    for (uint64_t i = 0; i < pixels; i++)
+        pages += (truth->offsets[i + 1] - truth->offsets[i] + 3) / 4;
+    return pages;
+}
+
 static void measure_bytes(kit_scene *scene, const fm_method_desc *method, uint32_t k)
 {
     const workload w = { .pixels = (uint64_t)scene->scene->width_px * scene->scene->height_px,
                          .k = k,
                          .n = scene->truth->n,
-                         .fragments = scene->truth->fragment_count };
+                         .fragments = scene->truth->fragment_count,
+                         .kept = truth_kept(scene->truth, k),
+                         .tiles = tiles_of(scene->scene),
+                         .pages = pages_of(scene->truth) };
     char texts[16];
     fm_measurement m;
     snprintf(texts, sizeof texts, "k=%u", k);
