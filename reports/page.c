@@ -178,6 +178,17 @@ void page_add_notes(fm_text *page, const fm_result_files *results)
         text_add(page, "<p>Nothing to note.</p>\n");
 }
 
+static void add_row(fm_text *page, const char *const *cells, size_t count)
+{
+    text_add(page, "<tr>");
+    for (size_t i = 0; i < count; i++) {
+        text_add(page, "<td>");
+        html_add(page, cells[i]);
+        text_add(page, "</td>");
+    }
+    text_add(page, "</tr>\n");
+}
+
 static void add_devices(fm_text *page, const fm_provenance *manifest)
 {
     if (manifest->device_count == 0)
@@ -188,13 +199,7 @@ static void add_devices(fm_text *page, const fm_provenance *manifest)
         const fm_device_info *device = &manifest->devices[i];
         const char *const cells[] = { device->selector, device->name, device->driver, device->api,
                                       device->is_software ? "software" : "GPU" };
-        text_add(page, "<tr>");
-        for (size_t j = 0; j < sizeof cells / sizeof cells[0]; j++) {
-            text_add(page, "<td>");
-            html_add(page, cells[j]);
-            text_add(page, "</td>");
-        }
-        text_add(page, "</tr>\n");
+        add_row(page, cells, sizeof cells / sizeof cells[0]);
     }
     text_add(page, "</tbody></table></div>\n");
 }
@@ -209,13 +214,7 @@ static void add_methods(fm_text *page, const fm_provenance *manifest)
         const fm_method_info *method = &manifest->methods[i];
         const char *const cells[] = { method->title, method->id, method->version,
                                       look_family_name(method->family), method->citation };
-        text_add(page, "<tr>");
-        for (size_t j = 0; j < sizeof cells / sizeof cells[0]; j++) {
-            text_add(page, "<td>");
-            html_add(page, cells[j]);
-            text_add(page, "</td>");
-        }
-        text_add(page, "</tr>\n");
+        add_row(page, cells, sizeof cells / sizeof cells[0]);
     }
     text_add(page, "</tbody></table></div>\n");
 }
