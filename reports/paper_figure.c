@@ -11,8 +11,10 @@ typedef struct place {
     fm_error *err;
 } place;
 
-static const char *const figure_keys[] = { "id",    "paper",  "title",        "source",    "run",
-                                           "smoke", "charts", "paper_points", "deviations" };
+static const char *const figure_keys[] = {
+    "id",    "paper",  "title",        "source",     "run",
+    "smoke", "charts", "paper_points", "deviations", "table"
+};
 static const char *const chart_keys[] = { "id",    "kind",     "title",      "x",      "y",
                                           "parts", "ratio_to", "with_paper", "y_scale" };
 static const char *const points_keys[] = { "parts", "series" };
@@ -236,8 +238,10 @@ fm_status paper_figure_read(fm_paper_figure **figure, const char *path, fm_error
     fm_status status = yaml_tree_read(&made->tree, path, err);
     if (status == FM_OK)
         status = read_head(made, made->tree, &at);
-    if (status == FM_OK)
-        status = read_charts(made, yaml_tree_find(made->tree, "charts"), &at);
+    const fm_yaml *charts = status == FM_OK ? yaml_tree_find(made->tree, "charts") : NULL;
+    const bool is_table = status == FM_OK && yaml_tree_find(made->tree, "table") != NULL;
+    if (status == FM_OK && !(charts == NULL && is_table))
+        status = read_charts(made, charts, &at);
     if (status == FM_OK)
         status = read_paper_points(made, yaml_tree_find(made->tree, "paper_points"), &at);
     if (status != FM_OK) {

@@ -27,6 +27,7 @@
  *         title: Array             as the paper's legend has it
  *         points: [[4, 3.9, 0.2], ...]   x, then one value a part
  *   deviations: [sentences]
+ *   table: ...                     memory by formula, see memory_table.h; charts may be missing
  *
  * Unknown keys are refused with file, line and the nearest known one. */
 #ifndef FM_PAPER_FIGURE_H

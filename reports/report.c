@@ -152,34 +152,34 @@ static fm_status add_figures(writer *to, const fm_report_desc *desc)
 }
 
 /* Any table of the directory as it is; absent: nothing. */
-static fm_status add_claims(writer *to)
+static fm_status add_table(writer *to, const char *file, const char *title)
 {
     char path[1024];
-    fm_table *claims = NULL;
-    snprintf(path, sizeof path, "%s/claims.csv", to->results->directory);
+    fm_table *table = NULL;
+    snprintf(path, sizeof path, "%s/%s", to->results->directory, file);
     if (access(path, F_OK) != 0)
         return FM_OK;
-    fm_status status = table_read(&claims, path, to->err);
+    fm_status status = table_read(&table, path, to->err);
     if (status != FM_OK)
         return status;
-    text_add(&to->page, "<h3>Claims and verdicts</h3>\n<div class=table><table><thead><tr>");
-    for (size_t i = 0; i < claims->column_count; i++) {
+    text_add(&to->page, "<h3>%s</h3>\n<div class=table><table><thead><tr>", title);
+    for (size_t i = 0; i < table->column_count; i++) {
         text_add(&to->page, "<th>");
-        html_add(&to->page, claims->names[i]);
+        html_add(&to->page, table->names[i]);
         text_add(&to->page, "</th>");
     }
     text_add(&to->page, "</tr></thead><tbody>\n");
-    for (size_t row = 0; row < claims->row_count; row++) {
+    for (size_t row = 0; row < table->row_count; row++) {
         text_add(&to->page, "<tr>");
-        for (size_t i = 0; i < claims->column_count; i++) {
+        for (size_t i = 0; i < table->column_count; i++) {
             text_add(&to->page, "<td>");
-            html_add(&to->page, table_cell(claims, row, i));
+            html_add(&to->page, table_cell(table, row, i));
             text_add(&to->page, "</td>");
         }
         text_add(&to->page, "</tr>\n");
     }
     text_add(&to->page, "</tbody></table></div>\n");
-    table_close(claims);
+    table_close(table);
     return FM_OK;
 }
 
@@ -288,7 +288,9 @@ static fm_status write_sections(writer *to, const fm_report_desc *desc)
     if (status == FM_OK)
         status = add_figures(to, desc);
     if (status == FM_OK)
-        status = add_claims(to);
+        status = add_table(to, "claims.csv", "Claims and verdicts");
+    if (status == FM_OK)
+        status = add_table(to, "memory.csv", "Memory by formula, and as printed");
     if (status == FM_OK)
         status = add_pictures(to, &groups);
     page_add_notes(&to->page, to->results);

@@ -3,6 +3,7 @@
 #ifndef FM_INSTANCE_INTERNAL_H
 #define FM_INSTANCE_INTERNAL_H
 
+#include "formula.h"
 #include "instance.h"
 
 enum { INSTANCE_USES_MAX = FM_MAX_BINDINGS - SHADER_BINDING_FIRST };
@@ -57,11 +58,9 @@ fm_status resources_grow(bool *grew, fm_instance *instance, size_t total, fm_err
 void resources_destroy(fm_instance *instance);
 /* Samples of an image resource: 1 or more. */
 uint32_t resource_samples(const fm_instance *instance, const fm_resource *resource);
-uint64_t workload_tiles(const fm_workload *workload);
 uint64_t resource_elements(const fm_instance *instance, size_t index);
 fm_status table_upload(fm_instance *instance, fm_error *err);
 int resource_index(const fm_method_desc *method, const char *name, bool *is_previous);
-int total_index(const fm_method_desc *method, const char *name);
 int pass_index(const fm_method_desc *method, const char *name);
 
 /* The copy of a resource that the running iteration writes. */

@@ -20,14 +20,6 @@ int resource_index(const fm_method_desc *method, const char *name, bool *is_prev
     return -1;
 }
 
-int total_index(const fm_method_desc *method, const char *name)
-{
-    for (int i = 0; name != NULL && i < FM_MAX_TOTALS && method->totals[i].name != NULL; i++)
-        if (strcmp(method->totals[i].name, name) == 0)
-            return i;
-    return -1;
-}
-
 int pass_index(const fm_method_desc *method, const char *name)
 {
     for (int i = 0; name != NULL && i < FM_MAX_PASSES && method->passes[i].name != NULL; i++)
@@ -36,58 +28,12 @@ int pass_index(const fm_method_desc *method, const char *name)
     return -1;
 }
 
-uint64_t workload_tiles(const fm_workload *workload)
-{
-    const uint64_t across = (workload->width_px + FM_TILE_PX - 1) / FM_TILE_PX;
-    const uint64_t down = (workload->height_px + FM_TILE_PX - 1) / FM_TILE_PX;
-    return across * down;
-}
-
-static uint64_t option_number(const fm_workload *workload, const char *name)
-{
-    const char *value = name != NULL ? workload->option(workload, name) : NULL;
-    uint64_t number = 0;
-    return value != NULL && text_to_u64(&number, value) ? number : 0;
-}
-
-/* Sizes beyond 64 bits stay at UINT64_MAX, which no device has. */
-static uint64_t sum_of(uint64_t a, uint64_t b)
-{
-    uint64_t sum;
-    return __builtin_add_overflow(a, b, &sum) ? UINT64_MAX : sum;
-}
-
-static uint64_t product_of(uint64_t a, uint64_t b)
-{
-    uint64_t product;
-    return __builtin_mul_overflow(a, b, &product) ? UINT64_MAX : product;
-}
-
-/* The extent's formula; a named total that is not known counts as 0. */
-static uint64_t extent_elements(const fm_instance *instance, const fm_extent *extent)
-{
-    const fm_workload *workload = &instance->workload;
-    const uint64_t pixels = (uint64_t)workload->width_px * workload->height_px;
-    const int total = total_index(instance->method, extent->total);
-    const uint64_t terms[] = {
-        product_of(extent->per_pixel, pixels),
-        product_of(product_of(extent->per_pixel_k, pixels), workload->k),
-        product_of(product_of(extent->per_pixel_n, pixels), workload->n),
-        product_of(extent->per_tile, workload_tiles(workload)),
-        product_of(extent->per_triangle, workload->triangles),
-        product_of(extent->per_total, total >= 0 ? instance->totals[total] : 0),
-        product_of(extent->per_option, option_number(workload, extent->option)),
-    };
-    uint64_t elements = extent->constant;
-    for (size_t i = 0; i < sizeof terms / sizeof terms[0]; i++)
-        elements = sum_of(elements, terms[i]);
-    return elements;
-}
-
 uint64_t resource_elements(const fm_instance *instance, size_t index)
 {
-    return sum_of(extent_elements(instance, &instance->method->resources[index].extent),
-                  instance->grown[index]);
+    return formula_sum(formula_elements(instance->method,
+                                        &instance->method->resources[index].extent,
+                                        &instance->workload),
+                       instance->grown[index]);
 }
 
 static fm_status create_buffer(fm_instance *instance, fm_slot *slot, const fm_resource *resource,
@@ -107,16 +53,9 @@ static fm_status create_buffer(fm_instance *instance, fm_slot *slot, const fm_re
     return slot_create_buffer(slot, instance->device, instance->desc.settings->buffers, &desc, err);
 }
 
-static uint32_t image_layers(const fm_instance *instance, const fm_resource *resource)
-{
-    const uint32_t layers = resource->layers + resource->layers_per_k * instance->workload.k;
-    return layers > 0 ? layers : 1;
-}
-
 uint32_t resource_samples(const fm_instance *instance, const fm_resource *resource)
 {
-    const uint32_t samples = resource->samples + resource->samples_per_k * instance->workload.k;
-    return samples > 0 ? samples : 1;
+    return formula_samples(resource, &instance->workload);
 }
 
 static fm_status create_image(fm_instance *instance, fm_slot *slot, const fm_resource *resource,
@@ -124,7 +63,7 @@ static fm_status create_image(fm_instance *instance, fm_slot *slot, const fm_res
 {
     slot->format = resource->format;
     slot->samples = resource_samples(instance, resource);
-    slot->layers = image_layers(instance, resource);
+    slot->layers = formula_layers(resource, &instance->workload);
     const fm_image_desc desc = { .name = resource->name,
                                  .format = slot->format,
                                  .width_px = instance->workload.width_px,
@@ -211,7 +150,7 @@ fm_status resources_grow(bool *grew, fm_instance *instance, size_t total, fm_err
         if (resource->sizing != FM_SIZE_GROW || strcmp(resource->overflow, name) != 0 ||
             instance->totals[total] == 0)
             continue;
-        instance->grown[i] = sum_of(instance->grown[i], instance->totals[total]);
+        instance->grown[i] = formula_sum(instance->grown[i], instance->totals[total]);
         *grew = true;
         status = create_resource(instance, i, err);
     }
@@ -253,31 +192,11 @@ fm_status table_upload(fm_instance *instance, fm_error *err)
                                                sizeof lines, err);
 }
 
-static uint64_t image_bytes(const fm_instance *instance, const fm_resource *resource)
-{
-    const uint64_t pixels = (uint64_t)instance->workload.width_px * instance->workload.height_px;
-    return pixels * fm_format_bytes(resource->format) * image_layers(instance, resource) *
-           resource_samples(instance, resource);
-}
-
 uint64_t instance_bytes_predicted(const fm_instance *instance)
 {
-    const fm_method_desc *method = instance->method;
     const uint64_t pixels = (uint64_t)instance->workload.width_px * instance->workload.height_px;
     const uint64_t locks = instance->is_spin_locked ? pixels * 4 : 0;
-    uint64_t bytes = 0;
-    if (method->bytes != NULL)
-        return method->bytes(&instance->workload) + locks;
-    for (size_t i = 0; i < instance->resource_count; i++) {
-        const fm_resource *resource = &method->resources[i];
-        const uint64_t elements = extent_elements(instance, &resource->extent);
-        const uint64_t one =
-            resource->kind == FM_RESOURCE_IMAGE
-                ? image_bytes(instance, resource)
-                : product_of(elements > 0 ? elements : 1, fm_element_bytes(resource->element));
-        bytes = sum_of(bytes, product_of(one, resource->ping_pong ? 2 : 1));
-    }
-    return sum_of(bytes, locks);
+    return formula_sum(formula_bytes(instance->method, &instance->workload), locks);
 }
 
 uint64_t instance_bytes_used(const fm_instance *instance)
@@ -290,7 +209,7 @@ uint64_t instance_bytes_used(const fm_instance *instance)
                                   resource->used.per_fragment * instance->workload.fragments +
                                   resource->used.per_kept * instance->workload.fragments_kept;
         bytes += resource->kind == FM_RESOURCE_IMAGE
-                     ? image_bytes(instance, resource)
+                     ? formula_image_bytes(resource, &instance->workload)
                      : elements * fm_element_bytes(resource->element);
     }
     return bytes;

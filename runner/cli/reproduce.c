@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "cli.h"
+#include "memory_table.h"
 
 enum { KEY_SMOKE = 512 };
 
@@ -107,9 +108,13 @@ static fm_status write_specs(spec_files *specs, const fm_arguments *arguments,
         if (!is_chosen[i])
             continue;
         snprintf(path, sizeof path, "%s/%s.yml", specs->folder, list->figures[i].id);
-        status = figure_write_spec(path, &list->figures[i], arguments->smoke, err);
+        bool is_table = false;
+        status = memory_table_is_in(&is_table, list->figures[i].path, err);
+        if (status == FM_OK)
+            status = figure_write_spec(path, &list->figures[i], arguments->smoke, err);
         if (status == FM_UNSUPPORTED) {
-            fprintf(arguments->cli->talk, "left out: %s\n", err->message);
+            if (!is_table)
+                fprintf(arguments->cli->talk, "left out: %s\n", err->message);
             status = FM_OK;
             continue;
         }
@@ -118,8 +123,6 @@ static fm_status write_specs(spec_files *specs, const fm_arguments *arguments,
         if (status == FM_OK)
             status = names_add(&specs->paths, path, err);
     }
-    if (status == FM_OK && specs->ids.count == 0)
-        status = fm_fail(err, FM_INVALID, "none of these figures has anything to run");
     return status;
 }
 
@@ -182,9 +185,67 @@ static int run_specs(const spec_files *specs, const fm_arguments *arguments, con
     return code;
 }
 
+/* ---- tables of memory: nothing to run ---- */
+
+static fm_status make_tables(fm_text *csv, fm_memory_verdicts *verdicts,
+                             const fm_arguments *arguments, const fm_figure_list *list,
+                             const bool *is_chosen, fm_error *err)
+{
+    fm_plugin_list plugins = { 0 };
+    fm_status status = plugin_list_open(&plugins, names_list(&arguments->plugin_folders), err);
+    for (size_t i = 0; i < list->count && status == FM_OK; i++) {
+        const fm_figure *figure = &list->figures[i];
+        bool is_table = false;
+        if (is_chosen[i])
+            status = memory_table_is_in(&is_table, figure->path, err);
+        if (status == FM_OK && is_table)
+            status = memory_table_make(csv, verdicts, figure->path, figure->id, &plugins, err);
+    }
+    plugin_list_close(&plugins);
+    return status;
+}
+
+/* DIR/memory.csv, which the report shows, and the same on stdout when nothing is to be measured. */
+static fm_status keep_tables(const fm_text *csv, const fm_memory_verdicts *verdicts,
+                             const fm_arguments *arguments, bool is_all, fm_error *err)
+{
+    char directory[FM_PATH_MAX_BYTES], path[2 * FM_PATH_MAX_BYTES];
+    const fm_cli *cli = arguments->cli;
+    cli_directory(directory, arguments);
+    if (mkdir(directory, 0777) != 0 && errno != EEXIST)
+        return fm_fail(err, FM_IO, "%s: %s", directory, strerror(errno));
+    snprintf(path, sizeof path, "%s/memory.csv", directory);
+    const fm_status status = text_write_file(path, csv->bytes, csv->length, err);
+    if (status != FM_OK)
+        return status;
+    if (is_all)
+        fputs(csv->bytes, cli->out);
+    fprintf(cli->talk, "%s: %u printed values are exact, %u are errata, %u differ\n", path,
+            verdicts->exact, verdicts->errata, verdicts->differs);
+    return FM_OK;
+}
+
+/* Tables first, then what has to be measured; *code is for main. */
+static fm_status reproduce(int *code, const spec_files *specs, const fm_arguments *arguments,
+                           const fm_figure_list *list, const bool *is_chosen, const char *command,
+                           fm_error *err)
+{
+    fm_text csv = { 0 };
+    fm_memory_verdicts verdicts = { 0 };
+    fm_status status = make_tables(&csv, &verdicts, arguments, list, is_chosen, err);
+    if (status == FM_OK && csv.length == 0 && specs->ids.count == 0)
+        status = fm_fail(err, FM_INVALID, "none of these figures has anything to run");
+    if (status == FM_OK && csv.length > 0)
+        status = keep_tables(&csv, &verdicts, arguments, specs->ids.count == 0, err);
+    if (status == FM_OK && specs->ids.count > 0)
+        *code = run_specs(specs, arguments, command);
+    text_free(&csv);
+    return status;
+}
+
 int cli_reproduce(const fm_cli *cli, int argc, char **argv)
 {
-    int code;
+    int code = CLI_DONE;
     fm_arguments arguments = { .cli = cli, .takes_figures = true };
     fm_figure_list list = { 0 };
     spec_files specs = { 0 };
@@ -201,8 +262,11 @@ int cli_reproduce(const fm_cli *cli, int argc, char **argv)
         status = open_specs(&specs, &err);
     if (status == FM_OK)
         status = write_specs(&specs, &arguments, &list, is_chosen, &err);
-    code = status != FM_OK ? cli_fail(cli, &err)
-                           : run_specs(&specs, &arguments, command != NULL ? command : "");
+    if (status == FM_OK)
+        status = reproduce(&code, &specs, &arguments, &list, is_chosen,
+                           command != NULL ? command : "", &err);
+    if (status != FM_OK)
+        code = cli_fail(cli, &err);
     close_specs(&specs);
     free(is_chosen);
     figures_free(&list);
