@@ -8,7 +8,7 @@ uint array_slot(uvec2 pixel, uint i, uint length)
 {
 #if LAYOUT == LAYOUT_LAYER
     return i * uint(FM_PIXELS) + fm_pixel_index(pixel);
-#elif LAYOUT == LAYOUT_TILE
+#elif defined(LAYOUT_TILE) && LAYOUT == LAYOUT_TILE
     uvec2 corner = pixel & ~7u, within = pixel - corner;
     uvec2 size = min(uvec2(FM_WIDTH, FM_HEIGHT) - corner, uvec2(8u));
     uint pixels_before = corner.y * uint(FM_WIDTH) + corner.x * size.y;
