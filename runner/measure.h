@@ -33,7 +33,8 @@ typedef struct fm_measurement {
     bool is_checked;
     fm_check check;
     uint64_t culled, locked;
-    double self_max_abs;    /* timed image against its own fragments composited in double */
+    double self_max_abs;    /* timed image against its own fragments composited in double; pixels
+                               where a tie leaves their order open are left out */
     fm_image_error error;   /* against the picture of the fragments that it was to hand over */
     double truncation_rmse; /* of that picture against the picture of all fragments */
     double total_rmse;      /* of the image against the picture of all fragments */
