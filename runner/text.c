@@ -173,16 +173,15 @@ fm_status text_write_file(const char *path, const char *bytes, size_t count, fm_
         status = fm_fail(err, FM_IO, "%s: %s", partial.bytes, strerror(errno));
         goto out;
     }
-    bool is_written = write_all(file, bytes, count) && fsync(file) == 0;
-    const int write_error = errno;
-    if (close(file) != 0 && is_written)
-        status = fm_fail(err, FM_IO, "%s: %s", path, strerror(errno));
-    else if (!is_written)
-        status = fm_fail(err, FM_IO, "%s: %s", path, strerror(write_error));
-    else if (rename(partial.bytes, path) != 0)
-        status = fm_fail(err, FM_IO, "%s: %s", path, strerror(errno));
-    if (status != FM_OK)
+    int failure = write_all(file, bytes, count) && fsync(file) == 0 ? 0 : errno;
+    if (close(file) != 0 && failure == 0)
+        failure = errno;
+    if (failure == 0 && rename(partial.bytes, path) != 0)
+        failure = errno;
+    if (failure != 0) {
+        status = fm_fail(err, FM_IO, "%s: %s", path, strerror(failure));
         unlink(partial.bytes);
+    }
 out:
     text_free(&partial);
     return status;

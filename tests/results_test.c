@@ -7,7 +7,7 @@
 #include "fake_plan.h"
 #include "results.h"
 
-static const char *const ONE[] = { "kb", NULL };
+static const char *const only_kb[] = { "kb", NULL };
 
 /* {"status": "ok", samples of frames 0, 1, ...}; store_ms[i] < 0 ends them. */
 static json_t *result_of(const double *store_ms, const double *canary_ns)
@@ -38,7 +38,7 @@ static fm_results *created(fake_plan *fake, uint32_t launches)
 {
     fm_results *results = NULL;
     fm_error err = { 0 };
-    fake_open(fake, ONE, launches);
+    fake_open(fake, only_kb, launches);
     if (results_create(&results, &fake->plan, &fake->list, fake->folder, "run", &err) != FM_OK)
         fail_msg("%s", err.message);
     return results;
@@ -236,7 +236,7 @@ static void skipped_cases_tell_refusal_from_missing_support(void **state)
     (void)state;
     fake_plan fake;
     fm_results *results = NULL;
-    fake_open(&fake, ONE, 1);
+    fake_open(&fake, only_kb, 1);
     snprintf(fake.cases[0].skip, sizeof fake.cases[0].skip, "plugin_error: kb.so: wrong ABI");
     assert_int_equal(results_create(&results, &fake.plan, &fake.list, fake.folder, "run", NULL),
                      FM_OK);

@@ -12,7 +12,7 @@
 
 /* $2 is the request, $3 the result. Each launch leaves a line in calls; a truth job its file. What
  * a method does is told by its name. */
-static const char WORKER[] =
+static const char worker_script[] =
     "#!/bin/sh\n"
     "here=$(dirname \"$0\")\n"
     "good='{\"status\":\"ok\",\"message\":\"\",\"image_hash\":\"00000000000000aa\",'\n"
@@ -49,7 +49,7 @@ static const char WORKER[] =
 static void open_with_worker(fake_plan *fake, const char *const *ids, uint32_t launches)
 {
     fake_open(fake, ids, launches);
-    fake_write(fake, "worker.sh", WORKER, "w");
+    fake_write(fake, "worker.sh", worker_script, "w");
     assert_int_equal(chmod(fake->worker, 0755), 0);
 }
 
