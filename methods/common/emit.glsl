@@ -28,10 +28,19 @@ void fm_emit_end(uvec2 pixel)
 
 #else
 
-vec4 fm_front;
+// 1 - A is kept instead of A: near A = 1 a sum would stop short, and hundreds of layers would still show.
+vec3 fm_front;
+float fm_shows;
 #ifdef FM_EMITS_BACK
 vec4 fm_back;
 #endif
+
+// An approximation's one colour: it has no fragments, and the checked build finds none.
+void fm_blended(uvec2 pixel, vec4 colour)
+{
+    fm_front += colour.rgb * fm_shows;
+    fm_shows *= 1.0 - colour.a;
+}
 
 void fm_emit(uvec2 pixel, int rank, float depth, uint colour)
 {
@@ -42,27 +51,23 @@ void fm_emit(uvec2 pixel, int rank, float depth, uint colour)
         return;
     }
 #endif
-    fm_front += c * (1.0 - fm_front.a);
-}
-
-// An approximation's one colour: it has no fragments, and the checked build finds none.
-void fm_blended(uvec2 pixel, vec4 colour)
-{
-    fm_front += colour * (1.0 - fm_front.a);
+    fm_blended(pixel, c);
 }
 
 // Compositing outlives a pass: a looped method goes on where the last iteration ended.
 void fm_emit_begin(uvec2 pixel)
 {
     bool is_first = FM_EMIT_FIRST != 0 && fm_iteration == 0u;
-    fm_front = is_first ? vec4(0.0) : fm_output[fm_pixel_index(pixel)];
+    vec4 before = is_first ? vec4(0.0) : fm_output[fm_pixel_index(pixel)];
+    fm_front = before.rgb;
+    fm_shows = 1.0 - before.a;
 #ifdef FM_EMITS_BACK
     fm_back = is_first ? vec4(0.0) : fm_output_back[fm_pixel_index(pixel)];
 #endif
 }
 void fm_emit_end(uvec2 pixel)
 {
-    fm_output[fm_pixel_index(pixel)] = fm_front;
+    fm_output[fm_pixel_index(pixel)] = vec4(fm_front, 1.0 - fm_shows);
 #ifdef FM_EMITS_BACK
     fm_output_back[fm_pixel_index(pixel)] = fm_back;
 #endif
