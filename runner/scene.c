@@ -1,6 +1,5 @@
 #include "scene.h"
 
-#include <assert.h>
 #include <stdlib.h>
 
 static fm_status fill(fm_scene *scene, fm_error *err)
@@ -11,8 +10,7 @@ static fm_status fill(fm_scene *scene, fm_error *err)
     case FM_GENERATOR_MESH:
         return mesh_load(scene, err);
     }
-    assert(!"every generator is handled");
-    return FM_INVALID;
+    return fm_fail(err, FM_INVALID, "a scene without a generator");
 }
 
 fm_status scene_create(fm_scene **scene, const fm_settings *settings, fm_error *err)

@@ -24,8 +24,8 @@ static void sorted_arrivals_are_the_nearest_ones(void **state)
 {
     static const char *const scenes[] = {
         "width_px=37 height_px=23 n=0",
-        "width_px=37 height_px=23 pixel_density=0.6 n=9 tessellation=3 order=ascending "
-        "fragment_probability=0.5",
+        ("width_px=37 height_px=23 pixel_density=0.6 n=9 tessellation=3 order=ascending "
+         "fragment_probability=0.5"),
         "width_px=31 height_px=17 pixel_density=1 n=5 tessellation=7 order=ascending depths=ulp",
         "width_px=19 height_px=11 pixel_density=0.8 n=12 order=ascending depths=coplanar",
         /* more arrivals than a stencil of 8 bits counts */
