@@ -136,7 +136,8 @@ typedef struct fm_option {
 } fm_option;
 
 /* How many elements, as data: the sum of all terms. A term with a name counts once for each unit of
- * that total or (numeric) option. All terms zero is refused. */
+ * that total or (numeric) option. All terms zero is refused; constant is 2^40 at most, each factor
+ * 4096. */
 typedef struct fm_extent {
     uint64_t constant;
     uint64_t per_pixel;
