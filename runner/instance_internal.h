@@ -1,5 +1,6 @@
-/* Shared by instance.c (set-up), instance_passes.c (pipelines), instance_resources.c (buffers),
- * instance_frame.c (frames) and instance_draw.c (one pass of one); nobody else. */
+/* Shared by instance.c (set-up), instance_passes.c (pipelines), instance_source.c (GLSL),
+ * instance_resources.c (buffers), instance_frame.c (frames) and instance_draw.c (one pass of one);
+ * nobody else. */
 #ifndef FM_INSTANCE_INTERNAL_H
 #define FM_INSTANCE_INTERNAL_H
 
@@ -75,6 +76,19 @@ uint64_t pass_invocations(const fm_instance *instance, const fm_pass *pass);
 fm_status pass_issue(fm_instance *instance, size_t index, uint32_t iteration, fm_error *err);
 fm_status pass_dispatch(fm_instance *instance, const fm_pass *pass, const built_pass *built,
                         uint64_t count, fm_error *err);
+
+static inline bool pass_is_scene(const fm_pass *pass)
+{
+    return pass->kind == FM_PASS_SCENE;
+}
+static inline bool pass_has_fixed_function(const fm_pass *pass)
+{
+    return pass->targets[0].resource != NULL || pass->state.depth_stencil != NULL;
+}
+
+/* instance_source.c: the fragment or compute shader of a pass. */
+fm_status pass_source(fm_text *text, const built_pass *built, const fm_instance *instance,
+                      const fm_pass *pass, fm_error *err);
 
 /* instance_passes.c */
 fm_status passes_create(fm_instance *instance, fm_error *err);
