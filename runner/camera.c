@@ -1,10 +1,6 @@
 #include "camera.h"
 
-#include <math.h>
-
-typedef struct vec3 {
-    double x, y, z;
-} vec3;
+#include "vec3.h"
 
 /* An orthonormal frame: right, up, and back (from the target towards the eye). */
 typedef struct view {
@@ -15,38 +11,6 @@ typedef struct lens {
     double scale_x, scale_y; /* cotangents of the half angles */
     double near, far;
 } lens;
-
-static vec3 vec3_of(const double v[3])
-{
-    return (vec3){ v[0], v[1], v[2] };
-}
-
-static vec3 minus(vec3 a, vec3 b)
-{
-    return (vec3){ a.x - b.x, a.y - b.y, a.z - b.z };
-}
-
-static vec3 plus_scaled(vec3 a, vec3 b, double s)
-{
-    return (vec3){ a.x + s * b.x, a.y + s * b.y, a.z + s * b.z };
-}
-
-static double dot(vec3 a, vec3 b)
-{
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-static vec3 cross(vec3 a, vec3 b)
-{
-    return (vec3){ a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
-}
-
-/* Zero stays zero. */
-static vec3 normalized(vec3 a)
-{
-    const double length = sqrt(dot(a, a));
-    return length > 0.0 ? (vec3){ a.x / length, a.y / length, a.z / length } : (vec3){ 0 };
-}
 
 static vec3 corner(const fm_box *box, unsigned i)
 {

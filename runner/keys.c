@@ -14,9 +14,13 @@ _Static_assert(sizeof(fm_generator) == sizeof(unsigned) && sizeof(fm_order) == s
                "FM_KEY_ENUM stores an unsigned");
 
 #define AT(field) .offset = offsetof(fm_settings, field)
-#define ANY       .scope = FM_SCOPE_SCENE, .any_generator = true
-#define LAYERS    .scope = FM_SCOPE_SCENE, .generator = FM_GENERATOR_LAYERS
-#define MESH      .scope = FM_SCOPE_SCENE, .generator = FM_GENERATOR_MESH
+#define ANY       .scope = FM_SCOPE_SCENE
+#define BY(mask)  .scope = FM_SCOPE_SCENE, .generators = (mask)
+#define LAYERS    BY(1u << FM_GENERATOR_LAYERS)
+#define MESH_FILE BY(1u << FM_GENERATOR_MESH | 1u << FM_GENERATOR_BUNNY_IN_CUBE)
+/* bunny-in-cube's camera and place follow from its pixel density. */
+#define DENSITY BY(1u << FM_GENERATOR_LAYERS | 1u << FM_GENERATOR_BUNNY_IN_CUBE)
+#define MESH    BY(~(1u << FM_GENERATOR_LAYERS | 1u << FM_GENERATOR_BUNNY_IN_CUBE))
 
 /* clang-format off */
 const fm_key fm_keys[] = {
@@ -24,14 +28,14 @@ const fm_key fm_keys[] = {
       .unit = "px", .help = "viewport" },
     { "height_px", FM_KEY_UINT, ANY, AT(height_px), .low = 1, .high = 16384, .fallback = "480",
       .unit = "px", .help = "viewport" },
-    { "generator", FM_KEY_ENUM, ANY, AT(generator), .values = { "layers", "mesh" },
+    { "generator", FM_KEY_ENUM, ANY, AT(generator), .values = { "layers", "mesh", "bunny-in-cube", "hairball" },
       .fallback = "layers", .help = "what makes the scene" },
     { "n", FM_KEY_UINT, LAYERS, AT(n), .low = 0, .high = 65536, .fallback = "none",
       .optional = true, .absent = FM_NOT_GIVEN, .help = "layers" },
     { "r", FM_KEY_UINT, LAYERS, AT(r), .low = 1, .high = 65536, .fallback = "none",
       .optional = true, .absent = 0, .help = "layers for each of k: n = r k (4 without n and r)" },
-    { "pixel_density", FM_KEY_REAL, LAYERS, AT(pixel_density), .low = 1e-9, .high = 1,
-      .fallback = "0.25", .help = "part of the viewport that layers cover" },
+    { "pixel_density", FM_KEY_REAL, DENSITY, AT(pixel_density), .low = 1e-9, .high = 1,
+      .fallback = "0.25", .help = "part of the viewport that layers, or the cube, cover" },
     { "fragment_probability", FM_KEY_REAL, LAYERS, AT(fragment_probability), .low = 0, .high = 1,
       .fallback = "1", .help = "that a layer has a fragment at a pixel" },
     { "tessellation", FM_KEY_UINT, LAYERS, AT(tessellation), .low = 1, .high = 64,
@@ -50,7 +54,7 @@ const fm_key fm_keys[] = {
       .help = "opacity of a fragment" },
     { "seed", FM_KEY_UINT64, ANY, AT(seed), .low = 0, .high = (double)FM_KEY_UINT64_MAX,
       .fallback = "1", .help = "of everything random" },
-    { "mesh", FM_KEY_TEXT, MESH, AT(mesh), .fallback = "",
+    { "mesh", FM_KEY_TEXT, MESH_FILE, AT(mesh), .fallback = "",
       .help = "OBJ, PLY or 3DS file, beside the file that names it" },
     { "eye", FM_KEY_VECTOR, MESH, AT(eye), .low = -1e6, .high = 1e6, .fallback = "0 0 0",
       .help = "camera; eye = target: fitted to the mesh" },
@@ -109,7 +113,8 @@ const char *key_nearest(const char *name)
 
 bool key_is_read(const fm_key *key, fm_generator generator)
 {
-    return key->scope != FM_SCOPE_SCENE || key->any_generator || key->generator == generator;
+    return key->scope != FM_SCOPE_SCENE || key->generators == 0 ||
+           (key->generators >> generator & 1u) != 0;
 }
 
 static void enum_domain(char text[FM_TEXT_MAX], const fm_key *key)

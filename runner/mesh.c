@@ -9,8 +9,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "camera.h"
 #include "scene.h"
+#include "shade.h"
 
 static const uint64_t max_indices = UINT64_C(1) << 31;
 
@@ -134,24 +134,12 @@ static fm_status check_file(fm_scene *scene, const struct aiScene *file, const c
     return FM_OK;
 }
 
-/* Two-sided Lambert, 64 where the light grazes to 255 where it falls straight. */
-static uint32_t shade(const struct aiVector3D *normal, double alpha)
+static uint32_t colour_of(const struct aiVector3D *normal, double alpha)
 {
-    static const double light[3] = { 0.35, 0.80, 0.49 };
-    static const uint32_t stone[3] = { 255, 226, 190 }; /* red, green, blue */
-    double cosine = 0.0;
-    if (normal != NULL && is_finite(normal)) {
-        const double x = (double)normal->x, y = (double)normal->y, z = (double)normal->z;
-        const double length = sqrt(x * x + y * y + z * z);
-        if (length > 0.0)
-            cosine = fmin(1.0, fabs(x * light[0] + y * light[1] + z * light[2]) / length);
-    }
-    const uint32_t grey = (uint32_t)lround(64.0 + 191.0 * cosine);
-    const uint32_t a = (uint32_t)lround(alpha * 255.0);
-    uint32_t colour = a << 24;
-    for (uint32_t channel = 0; channel < 3; channel++)
-        colour |= (stone[channel] * grey / 255u * a + 127u) / 255u << (8 * channel);
-    return colour;
+    vec3 n = { 0 };
+    if (normal != NULL && is_finite(normal))
+        n = (vec3){ (double)normal->x, (double)normal->y, (double)normal->z };
+    return shade(n, FM_STONE, alpha);
 }
 
 static void copy_mesh(fm_vertex *vertices, uint32_t *indices, const struct aiMesh *mesh,
@@ -161,7 +149,7 @@ static void copy_mesh(fm_vertex *vertices, uint32_t *indices, const struct aiMes
         const struct aiVector3D *p = &mesh->mVertices[i];
         vertices[i] =
             (fm_vertex){ { p->x, p->y, p->z },
-                         shade(mesh->mNormals == NULL ? NULL : &mesh->mNormals[i], alpha) };
+                         colour_of(mesh->mNormals == NULL ? NULL : &mesh->mNormals[i], alpha) };
     }
     for (unsigned i = 0; i < mesh->mNumFaces; i++)
         for (unsigned j = 0; j < 3; j++)
@@ -188,7 +176,7 @@ static fm_status copy_file(fm_scene *scene, const struct aiScene *file, fm_error
 }
 
 /* The box of the vertices that triangles use: a stray vertex must not move the camera. */
-static void box_of(fm_box *box, const fm_scene *scene)
+static void mesh_box(fm_box *box, const fm_scene *scene)
 {
     *box = (fm_box){ { INFINITY, INFINITY, INFINITY }, { -INFINITY, -INFINITY, -INFINITY } };
     for (uint32_t i = 0; i < scene->index_count; i++)
@@ -223,67 +211,24 @@ static bool has_area(const fm_scene *scene)
     return false;
 }
 
-/* Columns of camera * translation; false: beyond a float's range. */
-static bool place(float clip_from_object[16], const double camera[16], const double offset[3])
-{
-    for (int i = 0; i < 12; i++)
-        clip_from_object[i] = (float)camera[i];
-    for (int row = 0; row < 4; row++)
-        clip_from_object[12 + row] = (float)(camera[row] * offset[0] + camera[4 + row] * offset[1] +
-                                             camera[8 + row] * offset[2] + camera[12 + row]);
-    for (int i = 0; i < 16; i++)
-        if (!isfinite(clip_from_object[i]))
-            return false;
-    return true;
-}
-
-static fm_status place_instances(fm_scene *scene, fm_error *err)
-{
-    const fm_settings *s = &scene->settings;
-    const uint32_t count = s->instances > 0 ? s->instances : 1;
-    fm_box box;
-    double step[3], camera[16];
-    if (!has_area(scene))
-        return fm_fail(err, FM_INVALID, "%s: no triangle has an area", s->mesh);
-    box_of(&box, scene);
-    for (int axis = 0; axis < 3; axis++) {
-        step[axis] = s->instance_offset[axis] * (box.high[axis] - box.low[axis]);
-        box.low[axis] += fmin(0.0, step[axis] * (count - 1));
-        box.high[axis] += fmax(0.0, step[axis] * (count - 1));
-    }
-    const fm_status status = camera_matrix(camera, s, &box, err);
-    if (status != FM_OK)
-        return status;
-    scene->clip_from_object = calloc(count, 16 * sizeof(float));
-    if (scene->clip_from_object == NULL)
-        return fm_fail(err, FM_NO_MEMORY, "%" PRIu32 " instances", count);
-    scene->instances = count;
-    for (uint32_t i = 0; i < count; i++)
-        if (!place(scene->clip_from_object + (size_t)i * 16, camera,
-                   (double[3]){ i * step[0], i * step[1], i * step[2] }))
-            return fm_fail(err, FM_INVALID, "%s: instance %" PRIu32 " is out of a float's range",
-                           s->mesh, i);
-    return FM_OK;
-}
-
-fm_status mesh_load(fm_scene *scene, fm_error *err)
+fm_status mesh_read(fm_scene *scene, fm_box *box, fm_error *err)
 {
     const char *path = scene->settings.mesh;
+    const struct aiScene *file;
     if (path[0] == '\0')
         return fm_fail(err, FM_INVALID, "mesh: no file is named");
     if (access(path, R_OK) != 0)
         return fm_fail(err, FM_IO, "%s: %s", path, strerror(errno));
-    const struct aiScene *file;
     fm_status status = import(&file, path, err);
     if (status != FM_OK)
         return status;
     status = check_file(scene, file, path, err);
     if (status == FM_OK)
         status = copy_file(scene, file, err);
+    if (status == FM_OK && !has_area(scene))
+        status = fm_fail(err, FM_INVALID, "%s: no triangle has an area", path);
     if (status == FM_OK)
-        status = place_instances(scene, err);
-    if (status == FM_OK)
-        scene->triangles = (uint64_t)scene->index_count / 3 * scene->instances;
+        mesh_box(box, scene);
     aiReleaseImport(file);
     return status;
 }

@@ -203,7 +203,7 @@ static void make_skip(fm_case *made, const fm_plan_point *point)
     if (made->skip[0] == '\0')
         skip_for_choice(made, entry->plugin->method);
     if (made->skip[0] == '\0' && point->memo->error.status != FM_OK &&
-        made->settings.generator == FM_GENERATOR_MESH)
+        settings_has_file(&made->settings))
         snprintf(made->skip, sizeof made->skip, "mesh: %.400s", point->memo->error.message);
 }
 
@@ -259,7 +259,7 @@ fm_status plan_case_make(fm_case *made, const fm_plan_point *point, fm_error *er
     snprintf(made->feed, sizeof made->feed, "%s", point->feed);
     if (point->entry->plugin != NULL)
         make_choices(made, point, point->entry->plugin->method);
-    if (made->settings.generator == FM_GENERATOR_MESH)
+    if (settings_has_file(&made->settings))
         remember_mesh(point->memo, made->settings.mesh);
     make_skip(made, point);
     make_id(made, point);

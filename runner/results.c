@@ -248,7 +248,7 @@ static void worsen(fm_case_result *kept, uint32_t launch, fm_case_status status,
 /* Depths that tie are composited in either order: another image, and yet exact. */
 static bool depths_may_tie(const fm_settings *settings)
 {
-    return settings->generator == FM_GENERATOR_MESH || settings->depths == FM_DEPTHS_COPLANAR ||
+    return settings->generator != FM_GENERATOR_LAYERS || settings->depths == FM_DEPTHS_COPLANAR ||
            settings->depths == FM_DEPTHS_EQUAL || settings->depths == FM_DEPTHS_SLOPED;
 }
 

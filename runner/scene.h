@@ -2,6 +2,7 @@
 #ifndef FM_SCENE_H
 #define FM_SCENE_H
 
+#include "camera.h"
 #include "error.h"
 #include "settings.h"
 
@@ -38,11 +39,12 @@ typedef struct fm_scene {
     fm_rect rect;                /* covered pixels */
     uint32_t survival_threshold; /* a fragment lives iff hash < threshold; 0xFFFFFFFF: all live */
 
-    /* mesh */
-    fm_vertex *vertices;
+    /* mesh; read through scene_mesh */
+    fm_vertex *vertices; /* NULL: generated whenever they are asked for; see scene_hold */
     uint32_t vertex_count;
-    uint32_t *indices;
+    uint32_t *indices; /* NULL with vertices */
     uint32_t index_count;
+    uint32_t parts;          /* of generated meshes: pieces that are one each, such as a column */
     float *clip_from_object; /* [instances][16], column major; y down, z 0..1 */
     uint32_t instances;
 } fm_scene;
@@ -65,6 +67,23 @@ static inline bool scene_is_cell_major(const fm_scene *scene)
 fm_status scene_create(fm_scene **scene, const fm_settings *settings, fm_error *err);
 void scene_destroy(fm_scene *scene);
 
+/* Takes a mesh in blocks: all vertices from the first on, and all indices, in any interleaving.
+ * What a block points at is borrowed for the call. */
+typedef struct fm_mesh_sink {
+    void *user;
+    fm_status (*vertices)(void *user, uint32_t first, const fm_vertex *vertices, uint32_t count,
+                          fm_error *err);
+    fm_status (*indices)(void *user, uint32_t first, const uint32_t *indices, uint32_t count,
+                         fm_error *err);
+} fm_mesh_sink;
+
+/* Hands the mesh over: vertex_count vertices, index_count indices. A generated mesh is made block
+ * by block and never held as a whole. Returns what the sink failed with. */
+fm_status scene_mesh(const fm_scene *scene, const fm_mesh_sink *sink, fm_error *err);
+/* For who needs the whole mesh at once (hulls, CPU rasterisers): fills vertices and indices, if
+ * they are not there. FM_NO_MEMORY. */
+fm_status scene_hold(fm_scene *scene, fm_error *err);
+
 /* The layers generator: fills rect, layers, order, survival_threshold (generators/layers.c).
  *
  * Which fragments live, bit for bit the same in C and GLSL:
@@ -80,11 +99,15 @@ fm_status layers_generate(fm_scene *scene, fm_error *err);
 /* Where cell i of t begins, in px, and cell i - 1 ends; i = 0..t. begin, end: rect's x0, x1 or y0,
  * y1. Cells of less than a pixel may be empty. */
 uint32_t layers_border(uint32_t begin, uint32_t end, uint32_t i, uint32_t t);
-/* The mesh loader: fills vertices, indices, clip_from_object (runner/mesh.c).
- * Vertices have a stone base colour times a two-sided Lambert shade of a fixed light, with
- * settings.alpha; instances share them. The box that camera and planes are fitted to holds all
- * instances; instance i is moved by i * instance_offset * the size of the file's own box. */
-fm_status mesh_load(fm_scene *scene, fm_error *err);
+/* The mesh loader: fills vertices and indices (runner/mesh.c). Vertices have a stone base colour,
+ * shaded with settings.alpha. box: of the vertices that triangles use. */
+fm_status mesh_read(fm_scene *scene, fm_box *box, fm_error *err);
+/* Sees instances of a mesh with this box: fills clip_from_object, instances, triangles
+ * (runner/placement.c). The box that camera and planes are fitted to holds all instances; instance
+ * i is moved by i * instance_offset * the size of the mesh's own box. camera: whose eye ... zoom
+ * and instances are read; usually scene->settings.
+ * FM_INVALID: no camera sees it, or it is beyond a float's range. */
+fm_status scene_place(fm_scene *scene, const fm_settings *camera, const fm_box *box, fm_error *err);
 
 /* Closed form of a layers scene: the fragments of one pixel in arrival order; room for scene->n.
  * Returns how many. Flat layers are exact; the depth of sloped ones is evaluated in double and

@@ -186,12 +186,18 @@ void settings_text(char text[FM_PATH_MAX_BYTES], const fm_settings *settings, co
     }
 }
 
+bool settings_has_file(const fm_settings *settings)
+{
+    return key_is_read(key_find("mesh"), settings->generator);
+}
+
 static fm_status finish_mesh(fm_settings *settings, fm_error *err)
 {
     settings->n = 0;
     settings->r = 0;
-    if (settings->mesh[0] == '\0')
-        return fm_fail(err, FM_INVALID, "mesh: generator mesh needs a file");
+    if (settings_has_file(settings) && settings->mesh[0] == '\0')
+        return fm_fail(err, FM_INVALID, "mesh: generator %s needs a file",
+                       key_find("generator")->values[settings->generator]);
     const bool is_fitted =
         fpclassify(settings->near_plane) == FP_ZERO && fpclassify(settings->far_plane) == FP_ZERO;
     if (!is_fitted && !(settings->near_plane > 0 && settings->near_plane < settings->far_plane))
@@ -224,7 +230,7 @@ static fm_status complete_n(fm_settings *settings, fm_error *err)
 
 fm_status settings_finish(fm_settings *settings, fm_error *err)
 {
-    if (settings->generator == FM_GENERATOR_MESH)
+    if (settings->generator != FM_GENERATOR_LAYERS)
         return finish_mesh(settings, err);
     const fm_status status = complete_n(settings, err);
     if (status != FM_OK)
@@ -291,8 +297,7 @@ void settings_scene_hash_of(char hash[17], const fm_settings *settings, uint64_t
 void settings_scene_hash(char hash[17], const fm_settings *settings)
 {
     uint64_t digest = 0;
-    if (settings->generator == FM_GENERATOR_MESH &&
-        settings_mesh_digest(&digest, settings->mesh, NULL) != FM_OK)
+    if (settings_has_file(settings) && settings_mesh_digest(&digest, settings->mesh, NULL) != FM_OK)
         digest = XXH64(settings->mesh, strlen(settings->mesh), 0);
     settings_scene_hash_of(hash, settings, digest);
 }

@@ -15,7 +15,13 @@
 #include "fragmark/method.h"
 #include "text.h"
 
-typedef enum fm_generator { FM_GENERATOR_LAYERS, FM_GENERATOR_MESH } fm_generator;
+typedef enum fm_generator {
+    FM_GENERATOR_LAYERS,
+    FM_GENERATOR_MESH, /* a file */
+    /* Stand-ins for scenes that the papers used; generators/ has one file each. */
+    FM_GENERATOR_BUNNY_IN_CUBE,
+    FM_GENERATOR_HAIRBALL,
+} fm_generator;
 
 typedef enum fm_order {
     FM_ORDER_RANDOM,      /* layers arrive in one random order */
@@ -64,7 +70,7 @@ typedef struct fm_settings {
     /* layers */
     uint32_t n; /* layers; 0 is an empty scene; FM_NOT_GIVEN until settings_finish. Meshes: 0 */
     uint32_t r; /* n = r * k; 0: not given. Kept for the record: n alone makes the scene */
-    double pixel_density;
+    double pixel_density; /* of bunny-in-cube too */
     double fragment_probability;
     uint32_t tessellation;
     fm_order order;
@@ -74,7 +80,7 @@ typedef struct fm_settings {
     double alpha;
     uint64_t seed;
 
-    /* mesh */
+    /* mesh, and what the generators of triangles share with it */
     char mesh[FM_PATH_MAX_BYTES];          /* file; relative to the scene file that names it */
     double eye[3], target[3], up[3];       /* eye == target: fitted to the box of the mesh */
     double fov_deg, near_plane, far_plane; /* 0, 0: 0.4 and 1.7 of the box's distance */
@@ -116,11 +122,10 @@ typedef struct fm_key {
     size_t offset;          /* in fm_settings */
     double low, high;       /* numbers: inclusive range */
     const char *fallback;   /* default, as text */
-    const char *values[10]; /* enums */
+    const char *values[12]; /* enums */
     const char *unit;       /* "px", "" */
     const char *help;       /* one line */
-    fm_generator generator; /* scene keys: which generator reads it ... */
-    bool any_generator;     /* ... or all */
+    uint32_t generators;    /* scene keys: bit g: generator g reads it; 0: all do */
     bool optional;          /* FM_KEY_UINT: "none" is a value too, kept as `absent` */
     uint32_t absent;
 } fm_key;
@@ -132,6 +137,8 @@ extern const size_t fm_key_count;
 const fm_key *key_find(const char *name);
 /* The known key nearest in spelling to name: for messages. */
 const char *key_nearest(const char *name);
+/* Whether the generator's scenes read `mesh`: a file is part of them. */
+bool settings_has_file(const fm_settings *settings);
 /* Whether scenes of this generator read the key; true for keys that are not a scene's. */
 bool key_is_read(const fm_key *key, fm_generator generator);
 /* What values a key takes, in a few words: "1..16384", "spin|interlock". */

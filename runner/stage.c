@@ -63,6 +63,7 @@ static fm_status create_slot(fm_stage *stage, int index, uint64_t bytes, const v
     return status;
 }
 
+/* data NULL: to be written later. */
 static fm_status create_geometry(fm_buffer **buffer, fm_device *device, const char *name,
                                  const void *data, uint64_t bytes, fm_error *err)
 {
@@ -72,7 +73,7 @@ static fm_status create_geometry(fm_buffer **buffer, fm_device *device, const ch
                                   .is_vertex = strcmp(name, "vertices") == 0,
                                   .is_index = strcmp(name, "vertices") != 0 };
     fm_status status = device->ops->buffer_create(buffer, device, &desc, err);
-    if (status == FM_OK)
+    if (status == FM_OK && data != NULL)
         status = device->ops->buffer_write(device, *buffer, 0, data, bytes, err);
     return status;
 }
@@ -118,17 +119,38 @@ static fm_status create_layers(fm_stage *stage, fm_error *err)
     return status;
 }
 
+static fm_status write_vertices(void *user, uint32_t first, const fm_vertex *vertices,
+                                uint32_t count, fm_error *err)
+{
+    const fm_stage *stage = user;
+    return stage->device->ops->buffer_write(stage->device, stage->vertices,
+                                            (uint64_t)first * sizeof *vertices, vertices,
+                                            (uint64_t)count * sizeof *vertices, err);
+}
+
+static fm_status write_indices(void *user, uint32_t first, const uint32_t *indices, uint32_t count,
+                               fm_error *err)
+{
+    const fm_stage *stage = user;
+    return stage->device->ops->buffer_write(stage->device, stage->indices,
+                                            (uint64_t)first * sizeof *indices, indices,
+                                            (uint64_t)count * sizeof *indices, err);
+}
+
 static fm_status create_mesh(fm_stage *stage, fm_error *err)
 {
     const fm_scene *scene = stage->scene;
+    const fm_mesh_sink sink = { stage, write_vertices, write_indices };
     if (stage->feed != FM_FEED_RASTER)
         return FM_OK;
     fm_status status =
-        create_geometry(&stage->vertices, stage->device, "vertices", scene->vertices,
+        create_geometry(&stage->vertices, stage->device, "vertices", NULL,
                         (uint64_t)scene->vertex_count * sizeof scene->vertices[0], err);
     if (status == FM_OK)
-        status = create_geometry(&stage->indices, stage->device, "indices", scene->indices,
+        status = create_geometry(&stage->indices, stage->device, "indices", NULL,
                                  (uint64_t)scene->index_count * sizeof scene->indices[0], err);
+    if (status == FM_OK)
+        status = scene_mesh(scene, &sink, err);
     if (status == FM_OK)
         status = create_slot(stage, STAGE_CLIP, scene->instances * 16ull * sizeof(float),
                              scene->clip_from_object, false, err);

@@ -43,7 +43,7 @@ static const struct argp argp = {
 static double guessed_fragments(const fm_settings *settings)
 {
     const double pixels = (double)settings->width_px * settings->height_px;
-    if (settings->generator == FM_GENERATOR_MESH)
+    if (settings->generator != FM_GENERATOR_LAYERS)
         return pixels * 4.0 * settings->instances;
     return pixels * settings->pixel_density * settings->n * settings->fragment_probability;
 }

@@ -1,0 +1,25 @@
+/* Scenes of triangles that are made from a seed, and stand in for models that the papers used.
+ *
+ * All of them: coordinates come from integers, + - * / and square roots of doubles (turns.h where
+ * an angle is needed), so that a scene is the same floats on every machine. Faces are flat, lit as
+ * shade.h says. A stand-in has the properties that the papers print (scenes/README.md), which
+ * tests/generators_test.c asserts; its shape is our own. */
+#ifndef FM_PROCEDURAL_H
+#define FM_PROCEDURAL_H
+
+#include "builder.h"
+#include "scene.h"
+
+/* Fills what scene_place fills, and the counts: the mesh itself is left to procedural_stream. */
+fm_status procedural_generate(fm_scene *scene, fm_error *err);
+/* scene_mesh of such a scene. */
+fm_status procedural_stream(const fm_scene *scene, const fm_mesh_sink *sink, fm_error *err);
+
+/* The mesh file settings.mesh inside a cube whose front covers settings.pixel_density of the
+ * viewport; held, since a file is held. */
+fm_status bunny_in_cube_generate(fm_scene *scene, fm_error *err);
+
+/* What each makes stands in its file. */
+void hairball_build(fm_builder *b);
+
+#endif
