@@ -9,8 +9,9 @@
 #include "settings.h"
 
 /* "options" also holds keys of the scene that have no column: they belong to the workload. Copies
- * the pairs of one sort. */
-static void select_options(char chosen[256], const char *options, bool of_scene)
+ * the pairs of one sort, but for those named in `without`, which may be NULL. */
+static void select_options(char chosen[256], const char *options, bool of_scene,
+                           const fm_name_list *without)
 {
     size_t used = 0;
     chosen[0] = '\0';
@@ -20,7 +21,8 @@ static void select_options(char chosen[256], const char *options, bool of_scene)
         snprintf(name, sizeof name, "%.*s", (int)strcspn(options, "= "), options);
         const fm_key *key = key_find(name);
         bool is_scene = key != NULL && key->scope == FM_SCOPE_SCENE;
-        if (is_scene == of_scene && used + length + 2 < 256)
+        const bool is_left_out = without != NULL && name_list_names(without, name);
+        if (is_scene == of_scene && !is_left_out && used + length + 2 < 256)
             used += (size_t)snprintf(chosen + used, 256 - used, "%s%.*s", used > 0 ? " " : "",
                                      (int)length, options);
         options += length;
@@ -28,12 +30,24 @@ static void select_options(char chosen[256], const char *options, bool of_scene)
     }
 }
 
-static bool same_options(const fm_case_row *a, const fm_case_row *b, bool of_scene)
+static bool same_options(const fm_case_row *a, const fm_case_row *b, bool of_scene,
+                         const fm_name_list *without)
 {
     char of_a[256], of_b[256];
-    select_options(of_a, a->options, of_scene);
-    select_options(of_b, b->options, of_scene);
+    select_options(of_a, a->options, of_scene, without);
+    select_options(of_b, b->options, of_scene, without);
     return strcmp(of_a, of_b) == 0;
+}
+
+bool group_same_scene_options(const fm_case_row *a, const fm_case_row *b,
+                              const fm_name_list *without)
+{
+    return same_options(a, b, true, without);
+}
+
+bool group_same_own_options(const fm_case_row *a, const fm_case_row *b, const fm_name_list *without)
+{
+    return same_options(a, b, false, without);
 }
 
 static bool same_number(double a, double b)
@@ -58,18 +72,18 @@ static bool same_workload(const fm_case_row *a, const fm_case_row *b)
            (isnan(a->n) || isnan(b->n) || a->n == b->n) && same_number(a->r, b->r) &&
            same_number(a->pixel_density, b->pixel_density) &&
            same_number(a->fragment_probability, b->fragment_probability) &&
-           same_number(a->tessellation, b->tessellation) && same_options(a, b, true);
+           same_number(a->tessellation, b->tessellation) && same_options(a, b, true, NULL);
 }
 
 bool group_same_series(const fm_case_row *a, const fm_case_row *b)
 {
-    return strcmp(a->method, b->method) == 0 && same_options(a, b, false);
+    return strcmp(a->method, b->method) == 0 && same_options(a, b, false, NULL);
 }
 
 void group_series_title(char title[96], const fm_case_row *result)
 {
     char options[256];
-    select_options(options, result->options, false);
+    select_options(options, result->options, false, NULL);
     if (options[0] == '\0')
         snprintf(title, 96, "%.95s", result->look.title);
     else
@@ -149,7 +163,7 @@ static void describe(fm_group *group)
     if (one->order[0] != '\0')
         snprintf(group->workload + used, room - used, ", order %s", one->order);
     char options[256];
-    select_options(options, one->options, true);
+    select_options(options, one->options, true, NULL);
     used = strlen(group->workload);
     if (options[0] != '\0')
         snprintf(group->workload + used, room - used, ", %s", options);

@@ -5,9 +5,10 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "claims/verdicts.h"
 #include "report.h"
 
-enum { EXIT_DONE = 0, EXIT_USAGE = 2, EXIT_DAMAGED = 8, FIGURES_MOST = 32 };
+enum { EXIT_DONE = 0, EXIT_CLAIM = 1, EXIT_USAGE = 2, EXIT_DAMAGED = 8, FIGURES_MOST = 32 };
 
 typedef struct arguments {
     const char *directory;
@@ -90,9 +91,29 @@ static fm_status read_figures(fm_paper_figure **figures, const arguments *given,
     return FM_OK;
 }
 
+/* claims.csv, where the figures make claims. */
+static fm_status judge_claims(size_t *required_failed, const fm_result_files *results,
+                              const fm_paper_figure *const *figures, const arguments *given,
+                              fm_error *err)
+{
+    char path[1024];
+    fm_claim_results verdicts;
+    const fm_verdicts_desc desc = { .results = results,
+                                    .figures = figures,
+                                    .figure_count = given->figure_count };
+    fm_status status = verdicts_make(&verdicts, &desc, err);
+    *required_failed = verdicts_required_failed(&verdicts);
+    snprintf(path, sizeof path, "%s/claims.csv", given->directory);
+    if (status == FM_OK && verdicts.count > 0)
+        status = verdicts_write(&verdicts, path, err);
+    verdicts_free(&verdicts);
+    return status;
+}
+
 static int make_report(arguments *given, fm_error *err)
 {
     int code = EXIT_DAMAGED;
+    size_t required_failed = 0;
     fm_result_files *results = NULL;
     fm_paper_figure *figures[FIGURES_MOST] = { NULL };
     const fm_paper_figure *borrowed[FIGURES_MOST] = { NULL };
@@ -106,6 +127,8 @@ static int make_report(arguments *given, fm_error *err)
         goto out;
     }
     memcpy(borrowed, figures, sizeof figures);
+    if (judge_claims(&required_failed, results, borrowed, given, err) != FM_OK)
+        goto out;
     fm_report_desc desc = { .results = results,
                             .figures = borrowed,
                             .figure_count = given->figure_count };
@@ -115,7 +138,10 @@ static int make_report(arguments *given, fm_error *err)
             outcome.chart_count == 1 ? "" : "s", outcome.picture_count,
             outcome.picture_count == 1 ? "" : "s");
     printf("%s/report.html\n", given->directory);
-    code = EXIT_DONE;
+    code = required_failed == 0 ? EXIT_DONE : EXIT_CLAIM;
+    if (required_failed > 0)
+        fm_fail(err, FM_OK, "%zu claim%s that must hold fail%s: see claims.csv", required_failed,
+                required_failed == 1 ? "" : "s", required_failed == 1 ? "s" : "");
 out:
     for (size_t i = 0; i < given->figure_count; i++)
         paper_figure_close(figures[i]);
@@ -144,7 +170,8 @@ int main(int argc, char **argv)
                "  fragmark-report out/kplus-05\n"
                "  fragmark-report out/mine --figure kplus-05\n"
                "  fragmark-report out/mine --figure my-figure.yml\n\n"
-               "Exit status: 0 done, 2 wrong use or a bad figure file, 8 damaged or foreign "
+               "Exit status: 0 done, 1 a claim that its figure declares required fails, 2 wrong "
+               "use or a bad figure file, 8 damaged or foreign "
                "results.",
     };
     arguments given = { 0 };

@@ -5,125 +5,51 @@
 
 #include "text.h"
 
-/* Where in the file a value is being read. */
-typedef struct place {
-    const char *path;
-    fm_error *err;
-} place;
-
-static const char *const figure_keys[] = {
-    "id",    "paper",  "title",        "source",     "run",
-    "smoke", "charts", "paper_points", "deviations", "table"
-};
+static const char *const figure_keys[] = { "id",         "paper", "title",  "source",
+                                           "run",        "smoke", "charts", "paper_points",
+                                           "deviations", "table", "claims" };
 static const char *const chart_keys[] = { "id",    "kind",     "title",      "x",      "y",
                                           "parts", "ratio_to", "with_paper", "y_scale" };
 static const char *const points_keys[] = { "parts", "series" };
 static const char *const series_keys[] = { "method", "title", "points" };
 #define KEYS(list) (list), sizeof(list) / sizeof((list)[0])
 
-static fm_status check_keys(const fm_yaml *map, const char *what, const char *const *keys,
-                            size_t key_count, const place *at)
+static fm_status read_chart(fm_figure_chart *chart, const fm_yaml *map, const fm_yaml_place *at)
 {
-    if (map->kind != FM_YAML_MAP)
-        return fm_fail(at->err, FM_INVALID, "%s:%u: %s: keys and values are expected", at->path,
-                       map->line, what);
-    for (size_t i = 0; i < map->count; i++) {
-        const fm_yaml *item = &map->items[i];
-        bool known = false;
-        for (size_t j = 0; j < key_count && !known; j++)
-            known = strcmp(item->key, keys[j]) == 0;
-        if (known)
-            continue;
-        const char *nearest = text_nearest(item->key, keys, key_count);
-        return fm_fail(at->err, FM_INVALID, "%s:%u: unknown key \"%s\" of %s%s%s%s", at->path,
-                       item->line, item->key, what, nearest == NULL ? "" : "; is \"",
-                       nearest == NULL ? "" : nearest, nearest == NULL ? "" : "\" meant?");
-    }
-    return FM_OK;
-}
-
-/* A text; `needed` ones must be there and not empty, others become "". */
-static fm_status read_text(const char **text, const fm_yaml *map, const char *key, bool needed,
-                           const place *at)
-{
-    const fm_yaml *value = yaml_tree_find(map, key);
-    *text = value == NULL ? "" : value->text;
-    if (value != NULL && value->kind != FM_YAML_SCALAR)
-        return fm_fail(at->err, FM_INVALID, "%s:%u: %s: a text is expected", at->path, value->line,
-                       key);
-    if (needed && (*text)[0] == '\0')
-        return fm_fail(at->err, FM_INVALID, "%s:%u: %s is missing", at->path, map->line, key);
-    return FM_OK;
-}
-
-static fm_status read_list(fm_name_list *list, const fm_yaml *map, const char *key, const place *at)
-{
-    const fm_yaml *value = yaml_tree_find(map, key);
-    *list = (fm_name_list){ 0 };
-    if (value == NULL)
-        return FM_OK;
-    if (value->kind == FM_YAML_SCALAR) {
-        list->names[list->count++] = value->text;
-        return FM_OK;
-    }
-    if (value->kind != FM_YAML_LIST || value->count > FM_FIGURE_LIST)
-        return fm_fail(at->err, FM_INVALID, "%s:%u: %s: a list of at most %d texts is expected",
-                       at->path, value->line, key, FM_FIGURE_LIST);
-    for (size_t i = 0; i < value->count; i++) {
-        if (value->items[i].kind != FM_YAML_SCALAR)
-            return fm_fail(at->err, FM_INVALID, "%s:%u: %s: a text is expected", at->path,
-                           value->items[i].line, key);
-        list->names[list->count++] = value->items[i].text;
-    }
-    return FM_OK;
-}
-
-/* One of two words; the first is what a missing key means. */
-static fm_status read_choice(bool *is_second, const fm_yaml *map, const char *key,
-                             const char *first, const char *second, const place *at)
-{
-    const char *text;
-    fm_status status = read_text(&text, map, key, false, at);
-    *is_second = strcmp(text, second) == 0;
-    if (status == FM_OK && text[0] != '\0' && !*is_second && strcmp(text, first) != 0)
-        return fm_fail(at->err, FM_INVALID, "%s:%u: %s: \"%s\" is neither %s nor %s", at->path,
-                       yaml_tree_find(map, key)->line, key, text, first, second);
-    return status;
-}
-
-static fm_status read_chart(fm_figure_chart *chart, const fm_yaml *map, const place *at)
-{
-    bool is_bars = false;
-    fm_status status = check_keys(map, "charts", KEYS(chart_keys), at);
+    static const char *const kinds[] = { "lines", "stacked-bars" };
+    static const char *const scales[] = { "linear", "log" };
+    int kind = 0, scale = 0;
+    fm_status status = field_check_keys(map, "charts", KEYS(chart_keys), at);
     if (status == FM_OK)
-        status = read_text(&chart->id, map, "id", true, at);
+        status = field_text(&chart->id, map, "id", true, at);
     if (status == FM_OK)
-        status = read_text(&chart->title, map, "title", true, at);
+        status = field_text(&chart->title, map, "title", true, at);
     if (status == FM_OK)
-        status = read_text(&chart->x, map, "x", true, at);
+        status = field_text(&chart->x, map, "x", true, at);
     if (status == FM_OK)
-        status = read_choice(&is_bars, map, "kind", "lines", "stacked-bars", at);
+        status = field_word(&kind, map, "kind", kinds, 2, at);
     if (status == FM_OK)
-        status = read_text(&chart->y, map, "y", !is_bars, at);
+        status = field_text(&chart->y, map, "y", kind == FM_FIGURE_LINES, at);
     if (status == FM_OK)
-        status = read_text(&chart->ratio_to, map, "ratio_to", false, at);
+        status = field_text(&chart->ratio_to, map, "ratio_to", false, at);
     if (status == FM_OK)
-        status = read_choice(&chart->with_paper, map, "with_paper", "false", "true", at);
+        status = field_bool(&chart->with_paper, map, "with_paper", at);
     if (status == FM_OK)
-        status = read_choice(&chart->is_log, map, "y_scale", "linear", "log", at);
+        status = field_word(&scale, map, "y_scale", scales, 2, at);
     if (status == FM_OK)
-        status = read_list(&chart->parts, map, "parts", at);
-    if (status == FM_OK && is_bars &&
+        status = field_list(&chart->parts, map, "parts", at);
+    if (status == FM_OK && kind == FM_FIGURE_STACKED_BARS &&
         (chart->parts.count == 0 || chart->parts.count > FM_FIGURE_PARTS))
         return fm_fail(at->err, FM_INVALID, "%s:%u: stacked-bars need 1 to %d parts", at->path,
                        map->line, FM_FIGURE_PARTS);
     if (status == FM_OK && chart->ratio_to[0] == '\0')
         chart->ratio_to = NULL;
-    chart->kind = is_bars ? FM_FIGURE_STACKED_BARS : FM_FIGURE_LINES;
+    chart->kind = (fm_figure_kind)kind;
+    chart->is_log = scale == 1;
     return status;
 }
 
-static fm_status read_charts(fm_paper_figure *figure, const fm_yaml *list, const place *at)
+static fm_status read_charts(fm_paper_figure *figure, const fm_yaml *list, const fm_yaml_place *at)
 {
     if (list == NULL || list->kind != FM_YAML_LIST || list->count == 0 ||
         list->count > FM_FIGURE_CHARTS)
@@ -138,7 +64,7 @@ static fm_status read_charts(fm_paper_figure *figure, const fm_yaml *list, const
 }
 
 static fm_status read_point(fm_paper_point *point, const fm_yaml *list, size_t parts,
-                            const place *at)
+                            const fm_yaml_place *at)
 {
     if (list->kind != FM_YAML_LIST || list->count != parts + 1)
         return fm_fail(at->err, FM_INVALID, "%s:%u: a point is [x, %zu values]", at->path,
@@ -158,14 +84,14 @@ static fm_status read_point(fm_paper_point *point, const fm_yaml *list, size_t p
 }
 
 static fm_status read_paper_series(fm_paper_figure *figure, const fm_yaml *map, size_t parts,
-                                   const place *at)
+                                   const fm_yaml_place *at)
 {
     fm_paper_point point = { 0 };
-    fm_status status = check_keys(map, "series", KEYS(series_keys), at);
+    fm_status status = field_check_keys(map, "series", KEYS(series_keys), at);
     if (status == FM_OK)
-        status = read_text(&point.method, map, "method", true, at);
+        status = field_text(&point.method, map, "method", true, at);
     if (status == FM_OK)
-        status = read_text(&point.title, map, "title", true, at);
+        status = field_text(&point.title, map, "title", true, at);
     if (status != FM_OK)
         return status;
     const fm_yaml *points = yaml_tree_find(map, "points");
@@ -184,14 +110,15 @@ static fm_status read_paper_series(fm_paper_figure *figure, const fm_yaml *map, 
     return FM_OK;
 }
 
-static fm_status read_paper_points(fm_paper_figure *figure, const fm_yaml *map, const place *at)
+static fm_status read_paper_points(fm_paper_figure *figure, const fm_yaml *map,
+                                   const fm_yaml_place *at)
 {
     fm_name_list parts;
     if (map == NULL)
         return FM_OK;
-    fm_status status = check_keys(map, "paper_points", KEYS(points_keys), at);
+    fm_status status = field_check_keys(map, "paper_points", KEYS(points_keys), at);
     if (status == FM_OK)
-        status = read_list(&parts, map, "parts", at);
+        status = field_list(&parts, map, "parts", at);
     const fm_yaml *series = yaml_tree_find(map, "series");
     if (status == FM_OK && (series == NULL || series->kind != FM_YAML_LIST))
         status =
@@ -201,36 +128,36 @@ static fm_status read_paper_points(fm_paper_figure *figure, const fm_yaml *map, 
     return status;
 }
 
-static fm_status read_head(fm_paper_figure *figure, const fm_yaml *root, const place *at)
+static fm_status read_head(fm_paper_figure *figure, const fm_yaml *root, const fm_yaml_place *at)
 {
     const fm_yaml *run = yaml_tree_find(root, "run");
-    fm_status status = check_keys(root, "a figure", KEYS(figure_keys), at);
+    fm_status status = field_check_keys(root, "a figure", KEYS(figure_keys), at);
     if (status == FM_OK)
-        status = read_text(&figure->id, root, "id", true, at);
+        status = field_text(&figure->id, root, "id", true, at);
     if (status == FM_OK &&
         strspn(figure->id, "abcdefghijklmnopqrstuvwxyz0123456789-") != strlen(figure->id))
         return fm_fail(at->err, FM_INVALID, "%s: id \"%s\": lower case, digits and hyphens only",
                        at->path, figure->id);
     if (status == FM_OK)
-        status = read_text(&figure->paper, root, "paper", true, at);
+        status = field_text(&figure->paper, root, "paper", true, at);
     if (status == FM_OK)
-        status = read_text(&figure->title, root, "title", true, at);
+        status = field_text(&figure->title, root, "title", true, at);
     if (status == FM_OK)
-        status = read_text(&figure->source, root, "source", false, at);
+        status = field_text(&figure->source, root, "source", false, at);
     if (status == FM_OK)
-        status = read_list(&figure->deviations, root, "deviations", at);
+        status = field_list(&figure->deviations, root, "deviations", at);
     if (status == FM_OK && run != NULL)
-        status = read_list(&figure->methods, run, "methods", at);
+        status = field_list(&figure->methods, run, "methods", at);
     if (status == FM_OK && run != NULL)
-        status = read_list(&figure->scenes, run, "scenes", at);
+        status = field_list(&figure->scenes, run, "scenes", at);
     if (status == FM_OK && run != NULL)
-        status = read_list(&figure->feeds, run, "feeds", at);
+        status = field_list(&figure->feeds, run, "feeds", at);
     return status;
 }
 
 fm_status paper_figure_read(fm_paper_figure **figure, const char *path, fm_error *err)
 {
-    place at = { .path = path, .err = err };
+    fm_yaml_place at = { .path = path, .err = err };
     *figure = NULL;
     fm_paper_figure *made = calloc(1, sizeof *made);
     if (made == NULL)
@@ -244,6 +171,9 @@ fm_status paper_figure_read(fm_paper_figure **figure, const char *path, fm_error
         status = read_charts(made, charts, &at);
     if (status == FM_OK)
         status = read_paper_points(made, yaml_tree_find(made->tree, "paper_points"), &at);
+    if (status == FM_OK)
+        status = claims_read(&made->claims, &made->claim_count,
+                             yaml_tree_find(made->tree, "claims"), &at);
     if (status != FM_OK) {
         paper_figure_close(made);
         return status;
@@ -257,13 +187,6 @@ void paper_figure_close(fm_paper_figure *figure)
     if (figure == NULL)
         return;
     yaml_tree_free(figure->tree);
+    free(figure->claims);
     free(figure);
-}
-
-bool name_list_has(const fm_name_list *list, const char *name)
-{
-    for (size_t i = 0; i < list->count; i++)
-        if (strcmp(list->names[i], name) == 0)
-            return true;
-    return list->count == 0;
 }

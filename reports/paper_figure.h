@@ -26,6 +26,7 @@
  *       - method: kplus-array
  *         title: Array             as the paper's legend has it
  *         points: [[4, 3.9, 0.2], ...]   x, then one value a part
+ *   claims: ...                    see claims/claim.h
  *   deviations: [sentences]
  *   table: ...                     memory by formula, see memory_table.h; charts may be missing
  *
@@ -36,15 +37,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "error.h"
-#include "yaml_tree.h"
+#include "claims/claim.h"
 
-enum { FM_FIGURE_CHARTS = 8, FM_FIGURE_PARTS = 8, FM_FIGURE_LIST = 64, FM_FIGURE_POINTS = 256 };
-
-typedef struct fm_name_list {
-    const char *names[FM_FIGURE_LIST];
-    size_t count;
-} fm_name_list;
+enum { FM_FIGURE_CHARTS = 8, FM_FIGURE_PARTS = 8, FM_FIGURE_POINTS = 256 };
 
 typedef enum fm_figure_kind { FM_FIGURE_LINES, FM_FIGURE_STACKED_BARS } fm_figure_kind;
 
@@ -69,14 +64,13 @@ typedef struct fm_paper_figure {
     size_t chart_count;
     fm_paper_point points[FM_FIGURE_POINTS];
     size_t point_count;
+    fm_claim *claims; /* owned */
+    size_t claim_count;
     fm_yaml *tree; /* holds all texts */
 } fm_paper_figure;
 
 /* FM_IO, FM_NO_MEMORY; FM_INVALID: naming file and line. The caller closes *figure. */
 fm_status paper_figure_read(fm_paper_figure **figure, const char *path, fm_error *err);
 void paper_figure_close(fm_paper_figure *figure);
-
-/* An empty list holds every name. */
-bool name_list_has(const fm_name_list *list, const char *name);
 
 #endif

@@ -159,6 +159,31 @@ fm_status pictures_write(fm_picture_set *set, const char *directory, const char 
     return status;
 }
 
+static fm_status read_kept(fm_image **image, const char *directory, const char *id, fm_error *err)
+{
+    char path[1280];
+    snprintf(path, sizeof path, "%s/images/%s.rgba32f", directory, id);
+    if (access(path, F_OK) != 0)
+        return fm_fail(err, FM_UNSUPPORTED, "the picture of case %s was not kept", id);
+    return image_read(image, path, err);
+}
+
+fm_status pictures_compare(double *max_difference, const char *directory, const char *id,
+                           const char *other, fm_error *err)
+{
+    fm_image *left = NULL, *right = NULL;
+    fm_image_error apart = { 0 };
+    fm_status status = read_kept(&left, directory, id, err);
+    if (status == FM_OK)
+        status = read_kept(&right, directory, other, err);
+    if (status == FM_OK)
+        status = image_compare(&apart, left, right, err);
+    *max_difference = status == FM_OK ? apart.max_abs : NAN;
+    image_destroy(left);
+    image_destroy(right);
+    return status;
+}
+
 fm_status pictures_write_scale(const char *directory, fm_error *err)
 {
     char path[1280];

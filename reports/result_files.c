@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "stats.h"
 #include "text.h"
 
 #define TEXT(name, field)                                                                          \
@@ -164,10 +163,30 @@ static uint32_t find_case(const fm_result_files *results, const char *id, uint32
     return UINT32_MAX; /* a case that has no row yet, of a run that was stopped */
 }
 
+/* Rows of samples.csv by case, in the file's order: a counting sort. */
+static fm_status index_samples(fm_result_files *results, fm_error *err)
+{
+    const size_t row_count = results->samples->row_count;
+    results->sample_first = calloc(results->count + 2, sizeof *results->sample_first);
+    results->sample_rows = calloc(row_count + 1, sizeof *results->sample_rows);
+    if (results->sample_first == NULL || results->sample_rows == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "%s: %zu rows", results->samples->path, row_count);
+    size_t *first = results->sample_first;
+    for (size_t row = 0; row < row_count; row++)
+        if (results->sample_case[row] != UINT32_MAX)
+            first[results->sample_case[row] + 2]++;
+    for (size_t i = 1; i < results->count + 2; i++)
+        first[i] += first[i - 1];
+    for (size_t row = 0; row < row_count; row++)
+        if (results->sample_case[row] != UINT32_MAX)
+            results->sample_rows[first[results->sample_case[row] + 1]++] = (uint32_t)row;
+    return FM_OK;
+}
+
 /* A frame of a launch of a case. */
 typedef struct frame_name {
+    uint64_t frame;
     uint32_t of;
-    const char *launch, *frame; /* as texts */
 } frame_name;
 
 static int compare_frames(const void *left, const void *right)
@@ -175,33 +194,23 @@ static int compare_frames(const void *left, const void *right)
     const frame_name *a = left, *b = right;
     if (a->of != b->of)
         return a->of < b->of ? -1 : 1;
-    const int order = strcmp(a->launch, b->launch);
-    return order != 0 ? order : strcmp(a->frame, b->frame);
-}
-
-static frame_name frame_of(const fm_result_files *results, size_t row, size_t launch, size_t frame)
-{
-    return (frame_name){ results->sample_case[row], table_cell(results->samples, row, launch),
-                         table_cell(results->samples, row, frame) };
+    return (a->frame > b->frame) - (a->frame < b->frame);
 }
 
 /* Samples of frames that are marked off_clock count for nothing, as in summary.csv. */
-static fm_status leave_out_off_clock(fm_result_files *results, size_t launch, fm_error *err)
+static fm_status leave_out_off_clock(fm_result_files *results, fm_error *err)
 {
     const fm_table *table = results->samples;
-    size_t frame = 0, count = 0;
-    const fm_status status = need_column(&frame, table, "frame", err);
-    if (status != FM_OK)
-        return status;
+    size_t count = 0;
     frame_name *slow = calloc(table->row_count + 1, sizeof *slow);
     if (slow == NULL)
         return fm_fail(err, FM_NO_MEMORY, "%s: %zu rows", table->path, table->row_count);
     for (size_t row = 0; row < table->row_count; row++)
         if (strcmp(table_cell(table, row, results->sample_metric), "off_clock") == 0)
-            slow[count++] = frame_of(results, row, launch, frame);
+            slow[count++] = (frame_name){ results->sample_frame[row], results->sample_case[row] };
     qsort(slow, count, sizeof *slow, compare_frames);
     for (size_t row = 0; row < table->row_count && count > 0; row++) {
-        const frame_name own = frame_of(results, row, launch, frame);
+        const frame_name own = { results->sample_frame[row], results->sample_case[row] };
         if (bsearch(&own, slow, count, sizeof *slow, compare_frames) != NULL)
             results->sample_case[row] = UINT32_MAX;
     }
@@ -209,13 +218,30 @@ static fm_status leave_out_off_clock(fm_result_files *results, size_t launch, fm
     return FM_OK;
 }
 
+/* Launch and frame as one number; empty cells: the case as a whole. */
+static fm_status read_frame(uint64_t *frame, const fm_table *table, size_t row, size_t launch,
+                            size_t frame_column, fm_error *err)
+{
+    double of_launch, of_frame;
+    fm_status status = table_number(&of_launch, table, row, launch, err);
+    if (status == FM_OK)
+        status = table_number(&of_frame, table, row, frame_column, err);
+    if (status != FM_OK)
+        return status;
+    const bool is_frame = of_launch >= 0.0 && of_launch < 1e6 && of_frame >= 0.0 && of_frame < 1e9;
+    *frame = is_frame ? (uint64_t)of_launch << 32 | (uint64_t)of_frame : FM_SAMPLE_OF_CASE;
+    return FM_OK;
+}
+
 static fm_status read_samples(fm_result_files *results, fm_error *err)
 {
     const fm_table *table = results->samples;
-    size_t id = 0, launch = 0, value = 0;
+    size_t id = 0, launch = 0, frame = 0, value = 0;
     fm_status status = need_column(&id, table, "case_id", err);
     if (status == FM_OK)
         status = need_column(&launch, table, "launch", err);
+    if (status == FM_OK)
+        status = need_column(&frame, table, "frame", err);
     if (status == FM_OK)
         status = need_column(&results->sample_metric, table, "metric", err);
     if (status == FM_OK)
@@ -224,11 +250,15 @@ static fm_status read_samples(fm_result_files *results, fm_error *err)
         return status;
     results->sample_case = calloc(table->row_count + 1, sizeof *results->sample_case);
     results->sample_value = calloc(table->row_count + 1, sizeof *results->sample_value);
-    if (results->sample_case == NULL || results->sample_value == NULL)
+    results->sample_frame = calloc(table->row_count + 1, sizeof *results->sample_frame);
+    if (results->sample_case == NULL || results->sample_value == NULL ||
+        results->sample_frame == NULL)
         return fm_fail(err, FM_NO_MEMORY, "%s: %zu rows", table->path, table->row_count);
     uint32_t at = 0;
     for (size_t row = 0; row < table->row_count; row++) {
         status = table_number(&results->sample_value[row], table, row, value, err);
+        if (status == FM_OK)
+            status = read_frame(&results->sample_frame[row], table, row, launch, frame, err);
         if (status != FM_OK)
             return status;
         uint32_t found = find_case(results, table_cell(table, row, id), at);
@@ -240,7 +270,8 @@ static fm_status read_samples(fm_result_files *results, fm_error *err)
             strcmp(table_cell(table, row, results->sample_metric), "total_rmse") == 0)
             results->cases[found].total_rmse = results->sample_value[row];
     }
-    return leave_out_off_clock(results, launch, err);
+    status = leave_out_off_clock(results, err);
+    return status == FM_OK ? index_samples(results, err) : status;
 }
 
 static fm_status read_table(fm_table **table, const char *directory, const char *name,
@@ -283,6 +314,9 @@ void result_files_close(fm_result_files *results)
         return;
     free(results->sample_case);
     free(results->sample_value);
+    free(results->sample_frame);
+    free(results->sample_rows);
+    free(results->sample_first);
     free(results->cases);
     table_close(results->samples);
     table_close(results->summary);
@@ -290,22 +324,25 @@ void result_files_close(fm_result_files *results)
     free(results);
 }
 
+static bool is_metric(const fm_result_files *results, size_t row, const char *name)
+{
+    return results->sample_case[row] != UINT32_MAX && isfinite(results->sample_value[row]) &&
+           strcmp(table_cell(results->samples, row, results->sample_metric), name) == 0;
+}
+
 /* Median of a case's samples of one metric. */
 static double sample_median(const fm_result_files *results, size_t case_index, const char *name)
 {
-    const fm_table *table = results->samples;
+    const size_t first = results->sample_first[case_index];
+    const size_t end = results->sample_first[case_index + 1];
     size_t count = 0;
-    double median = NAN;
-    double *values = calloc(table->row_count + 1, sizeof *values);
+    double *values = calloc(end - first + 1, sizeof *values);
     if (values == NULL)
         return NAN;
-    for (size_t row = 0; row < table->row_count; row++)
-        if (results->sample_case[row] == case_index &&
-            strcmp(table_cell(table, row, results->sample_metric), name) == 0 &&
-            isfinite(results->sample_value[row]))
-            values[count++] = results->sample_value[row];
-    if (count > 0)
-        median = stats_median(values, count);
+    for (size_t i = first; i < end; i++)
+        if (is_metric(results, results->sample_rows[i], name))
+            values[count++] = results->sample_value[results->sample_rows[i]];
+    const double median = stats_median(values, count);
     free(values);
     return median;
 }
@@ -319,4 +356,93 @@ double result_files_metric(const fm_result_files *results, const fm_case_row *re
         if (!columns[i].is_text && strcmp(columns[i].name, name) == 0)
             return *(const double *)(const void *)((const char *)result + columns[i].offset);
     return sample_median(results, (size_t)(result - results->cases), name);
+}
+
+/* One metric of each frame of a case, summed with others. */
+typedef struct frame_sums {
+    uint64_t *frames;
+    double *values;
+    uint32_t *launches;
+    size_t count;
+} frame_sums;
+
+static void add_frame(frame_sums *sums, uint64_t frame, double value)
+{
+    size_t i = 0;
+    while (i < sums->count && sums->frames[i] != frame)
+        i++;
+    if (i == sums->count) {
+        sums->frames[i] = frame;
+        sums->values[i] = 0.0;
+        sums->launches[i] = (uint32_t)(frame >> 32);
+        sums->count++;
+    }
+    sums->values[i] += value;
+}
+
+/* Adds the frames' values of one metric; false: it has none by frame. */
+static bool add_metric(frame_sums *sums, const fm_result_files *results, size_t case_index,
+                       const char *name)
+{
+    bool has_any = false;
+    for (size_t i = results->sample_first[case_index]; i < results->sample_first[case_index + 1];
+         i++) {
+        const uint32_t row = results->sample_rows[i];
+        if (results->sample_frame[row] == FM_SAMPLE_OF_CASE || !is_metric(results, row, name))
+            continue;
+        add_frame(sums, results->sample_frame[row], results->sample_value[row]);
+        has_any = true;
+    }
+    return has_any;
+}
+
+static fm_interval interval_of(const frame_sums *sums, double constant)
+{
+    uint32_t group_count = 1;
+    for (size_t i = 0; i < sums->count; i++)
+        if (sums->launches[i] >= group_count)
+            group_count = sums->launches[i] + 1;
+    const fm_samples samples = { sums->values, sums->launches, sums->count, group_count };
+    fm_interval interval = stats_bootstrap(&samples, 1);
+    interval.median += constant;
+    interval.low += constant;
+    interval.high += constant;
+    return interval;
+}
+
+fm_interval result_files_interval(size_t *sample_count, const fm_result_files *results,
+                                  const fm_case_row *result, const char *const *names,
+                                  size_t name_count)
+{
+    const size_t index = (size_t)(result - results->cases);
+    const size_t room = results->sample_first[index + 1] - results->sample_first[index] + 1;
+    frame_sums sums = { calloc(room, sizeof(uint64_t)), calloc(room, sizeof(double)),
+                        calloc(room, sizeof(uint32_t)), 0 };
+    double constant = 0.0;
+    size_t found = 0;
+    fm_interval interval = { NAN, NAN, NAN };
+    *sample_count = 0;
+    if (sums.frames == NULL || sums.values == NULL || sums.launches == NULL)
+        goto out;
+    for (size_t i = 0; i < name_count; i++) {
+        if (add_metric(&sums, results, index, names[i])) {
+            found++;
+            continue;
+        }
+        const double value = result_files_metric(results, result, names[i]);
+        constant += isnan(value) ? 0.0 : value;
+        found += isnan(value) ? 0 : 1;
+    }
+    *sample_count = sums.count;
+    if (sums.count > 0)
+        interval = interval_of(&sums, constant);
+    else if (found > 0)
+        interval = (fm_interval){ constant, constant, constant };
+    if (name_count == 1 && sums.count == 0 && strcmp(names[0], "frame_ms") == 0)
+        interval = (fm_interval){ result->frame_ms, result->frame_ms_low, result->frame_ms_high };
+out:
+    free(sums.frames);
+    free(sums.values);
+    free(sums.launches);
+    return interval;
 }

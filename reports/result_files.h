@@ -9,6 +9,7 @@
 #include "error.h"
 #include "outcome.h"
 #include "provenance.h"
+#include "stats.h"
 #include "table.h"
 
 /* One row of summary.csv. Numbers are NAN where the cell is empty. */
@@ -30,6 +31,9 @@ typedef struct fm_case_row {
     bool is_software; /* the device */
 } fm_case_row;
 
+/* The frame of a number that holds for a case as a whole. */
+#define FM_SAMPLE_OF_CASE UINT64_MAX
+
 typedef struct fm_result_files {
     const char *directory; /* borrowed */
     fm_provenance *manifest;
@@ -38,8 +42,11 @@ typedef struct fm_result_files {
     size_t count;
     /* [samples->row_count]: index into cases; UINT32_MAX: none, or marked off_clock */
     uint32_t *sample_case;
-    double *sample_value; /* [samples->row_count] */
-    size_t sample_metric; /* column */
+    double *sample_value;   /* [samples->row_count] */
+    uint64_t *sample_frame; /* the same: launch and frame in one number; FM_SAMPLE_OF_CASE: none */
+    size_t sample_metric;   /* column */
+    uint32_t *sample_rows;  /* those of a case, case by case */
+    size_t *sample_first;   /* [count + 1]: where a case's start in sample_rows */
 } fm_result_files;
 
 /* FM_IO: a file cannot be read. FM_INVALID: damaged, naming file and line. The caller closes. */
@@ -50,5 +57,12 @@ void result_files_close(fm_result_files *results);
  * when there is none. */
 double result_files_metric(const fm_result_files *results, const fm_case_row *result,
                            const char *name);
+
+/* The sum of metrics of a case, each as above, with its 95 % interval where they have samples by
+ * frame; parts that the case does not have count as 0. All NAN: it has none of them. sample_count:
+ * how many frames the interval is made of; 0: the value stands for the case as a whole. */
+fm_interval result_files_interval(size_t *sample_count, const fm_result_files *results,
+                                  const fm_case_row *result, const char *const *names,
+                                  size_t name_count);
 
 #endif

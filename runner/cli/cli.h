@@ -14,6 +14,7 @@
 
 enum {
     CLI_DONE = 0,
+    CLI_CLAIM_FAILS = 1, /* a claim that its figure declares required */
     CLI_USAGE = 2,       /* usage or spec error: nothing was run */
     CLI_NOTHING = 3,     /* nothing could be measured */
     CLI_SOME_FAILED = 4, /* crash, timeout, out of memory, refused plugin, wrong image */
@@ -21,7 +22,8 @@ enum {
     CLI_SIGNAL = 128,    /* + its number: interrupted, can be continued */
 };
 #define CLI_EXIT_CODES                                                                             \
-    "Exit codes: 0 done; 2 usage or spec error, nothing was run; 3 nothing could be measured; "    \
+    "Exit codes: 0 done; 1 a claim that its figure declares required fails; 2 usage or spec "      \
+    "error, nothing was run; 3 nothing could be measured; "                                        \
     "4 some cases failed (crash, timeout, out of memory, refused plugin, wrong image of an exact " \
     "method); 8 damaged or foreign file; 130, 143 interrupted: the same command continues it."
 

@@ -61,18 +61,20 @@ char *cli_command_text(int argc, char **argv)
     return text.bytes;
 }
 
-static void report(const fm_cli *cli, const char *directory)
+/* CLI_CLAIM_FAILS or CLI_DONE. */
+static int report(const fm_cli *cli, const char *directory)
 {
     char program[FM_PATH_MAX_BYTES];
     if (!report_find(program)) {
         fprintf(cli->talk, "fragmark-report is not here (it needs VTK and OpenImageIO): no charts "
                            "and no report.html; the CSV files are complete\n");
-        return;
+        return CLI_DONE;
     }
     const int code = report_execute(program, directory);
-    if (code != 0)
+    if (code != CLI_DONE && code != CLI_CLAIM_FAILS)
         fprintf(cli->talk, "%s failed (%d); again with: fragmark report %s\n", program, code,
                 directory);
+    return code == CLI_CLAIM_FAILS ? code : CLI_DONE;
 }
 
 static int exit_code(const fm_run_result *result)
@@ -137,8 +139,9 @@ int cli_run_plan(const fm_arguments *arguments, const char *directory, const fm_
         return result.is_damaged ? CLI_DAMAGED : CLI_NOTHING; /* or a full disk */
     }
     sum_up(arguments, &result, directory, command);
-    if (result.stop_signal == 0 && !arguments->no_report)
-        report(arguments->cli, directory);
+    if (result.stop_signal == 0 && !arguments->no_report &&
+        report(arguments->cli, directory) == CLI_CLAIM_FAILS)
+        return CLI_CLAIM_FAILS;
     return exit_code(&result);
 }
 

@@ -1,0 +1,115 @@
+/* Claims: quantified sentences of a paper as data, in the `claims` of a figure's file.
+ *
+ *   claims:
+ *     - id: KP-3                      unique; parts of one sentence are KP-3a, KP-3b, ...
+ *       text: Heap overtakes Array between k = 16 and 32
+ *       source: Fig. 5                where the paper says so
+ *       where: any                    or gpu: rows of software devices do not count; or hazards:
+ *                                     on a software device only rows of feed compute-adjacent do
+ *       why: ...                      gpu, hazards: why a software device cannot say
+ *       required: true                if it fails, the exit code is 1
+ *       paper: 24                     the paper's value, a number or a sentence
+ *       plot: 8.9                     what the paper's own plot has, where that differs
+ *       form: crossing                how points are judged; below
+ *       of: { method: kplus-heap, metric: frame_ms }
+ *       over: { method: kplus-array }
+ *       along: k
+ *       between: [16, 32]
+ *
+ * A selection (`of`, `minus`, `over`) says which rows and which number of each:
+ *   metric   column of summary.csv or metric of samples.csv; a list is summed. Default frame_ms
+ *   take     each (default), least or greatest: of the rows that differ in method and options only
+ *   formula  { constant, per_pixel, per_pixel_k, per_pixel_n, per_fragment }: no row, but bytes
+ *            worked out for the row of `of`
+ *   table    summary (default) or memory: memory.csv, with its columns
+ *   others   tests on a column, or on an option: a value, a list of values, or ">= 16", "< 16",
+ *            "not 16"
+ * `minus` and `over` take over from `of` what they do not name, and each row of `of` is paired with
+ * the row of the same workload; columns that they name themselves may differ. A point is
+ * (of - minus) / over, with an interval. `only` rows of the figure's own cases count.
+ *
+ * Forms, and what they need (bounds: at_least, at_most, equals; tolerance, a share of the bound,
+ * widens each of them; the default is 0):
+ *   bound     every point is within the bounds
+ *   any       at least one point is
+ *   order     of: a list of selections; at each workload each is not above the next, but by the
+ *             tolerance
+ *   monotone  along, goes (rises or falls): no step goes back by more than the tolerance
+ *   crossing  along, between, level (1), goes (falls): where the points cross the level
+ *   peak      along, between, extreme (least or greatest): where the best point is
+ *   slope     along, scale: log (the exponent of a power law; default) or linear (the slope times
+ *             the middle of `along`, over the middle value): least squares, within the bounds
+ *   spread    greatest over least point, within the bounds
+ *   images    of, over: the greatest difference of the two images' pixels, within the bounds
+ * Points that differ in more than `along` (and `across`, columns that change with it) are judged
+ * apart; the worst of them decides.
+ *
+ * A verdict is `holds` or `fails` only if the whole 95 % interval agrees, else `unclear`; `not
+ * testable here` when there is no point. Times of fewer than five samples count as within 15 %. */
+#ifndef FM_CLAIM_H
+#define FM_CLAIM_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "yaml_fields.h"
+
+enum { FM_CLAIM_TESTS = 16, FM_CLAIM_SELECTIONS = 12, FM_CLAIMS = 64 };
+
+typedef enum fm_claim_form {
+    FM_CLAIM_BOUND,
+    FM_CLAIM_ANY,
+    FM_CLAIM_ORDER,
+    FM_CLAIM_MONOTONE,
+    FM_CLAIM_CROSSING,
+    FM_CLAIM_PEAK,
+    FM_CLAIM_SLOPE,
+    FM_CLAIM_SPREAD,
+    FM_CLAIM_IMAGES,
+    FM_CLAIM_FORM_COUNT
+} fm_claim_form;
+
+typedef enum fm_claim_where { FM_CLAIM_ANY_DEVICE, FM_CLAIM_GPU, FM_CLAIM_HAZARDS } fm_claim_where;
+typedef enum fm_take { FM_TAKE_EACH, FM_TAKE_LEAST, FM_TAKE_GREATEST } fm_take;
+typedef enum fm_selection_table { FM_SELECT_SUMMARY, FM_SELECT_MEMORY } fm_selection_table;
+
+typedef struct fm_claim_test {
+    const char *key;
+    const fm_yaml *value;
+    bool is_own; /* not taken over from `of` */
+} fm_claim_test;
+
+enum { FM_FORMULA_TERMS = 5 };
+
+typedef struct fm_selection {
+    fm_claim_test tests[FM_CLAIM_TESTS];
+    size_t test_count;
+    fm_name_list metrics;
+    fm_take take;
+    fm_selection_table table;
+    bool is_formula;
+    double formula[FM_FORMULA_TERMS]; /* constant, per pixel, pixel k, pixel n, fragment */
+} fm_selection;
+
+typedef struct fm_claim {
+    const char *id, *text, *source, *why, *paper, *plot;
+    fm_claim_where where;
+    bool is_required;
+    fm_claim_form form;
+    fm_selection of[FM_CLAIM_SELECTIONS]; /* one, but for `order` */
+    size_t of_count;
+    fm_selection minus, over;
+    bool has_minus, has_over;
+    const char *along; /* "": none */
+    fm_name_list across;
+    double low, high, tolerance; /* bounds before tolerance; infinite: none */
+    double level, between[2];
+    bool rises, is_linear, wants_greatest;
+} fm_claim;
+
+/* Reads the list `claims` of a figure's file; NULL: there are none. Texts point into the tree. The
+ * caller frees *claims. FM_NO_MEMORY; FM_INVALID: naming file and line. */
+fm_status claims_read(fm_claim **claims, size_t *count, const fm_yaml *list,
+                      const fm_yaml_place *at);
+
+#endif

@@ -1,0 +1,88 @@
+#include "judging.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+void judging_begin(judging *to)
+{
+    to->worst = (decision){ .kind = FM_VERDICT_NOT_TESTABLE, .measured = { NAN, NAN, NAN } };
+    to->least = INFINITY;
+    to->greatest = -INFINITY;
+}
+
+static int rank(fm_verdict_kind kind)
+{
+    static const int ranks[FM_VERDICT_COUNT] = { [FM_VERDICT_NOT_TESTABLE] = 0,
+                                                 [FM_VERDICT_HOLDS] = 1,
+                                                 [FM_VERDICT_UNCLEAR] = 2,
+                                                 [FM_VERDICT_FAILS] = 3 };
+    return ranks[kind];
+}
+
+void judging_decide(judging *to, const decision *made)
+{
+    const double sign = to->claim->form == FM_CLAIM_ANY ? -1.0 : 1.0;
+    const int apart = rank(made->kind) - rank(to->worst.kind);
+    const bool is_testable = made->kind != FM_VERDICT_NOT_TESTABLE;
+    const bool was_testable = to->worst.kind != FM_VERDICT_NOT_TESTABLE;
+    const bool is_worse =
+        apart == 0 ? sign * made->margin < sign * to->worst.margin : sign * apart > 0.0;
+    if (to->count == 0 || (is_testable && !was_testable) ||
+        (is_worse && is_testable == was_testable))
+        to->worst = *made;
+    to->least = fmin(to->least, made->measured.median);
+    to->greatest = fmax(to->greatest, made->measured.median);
+    to->count++;
+}
+
+void judging_note(judging *to, const char *format, ...)
+{
+    va_list arguments;
+    if (to->note[0] != '\0')
+        return;
+    va_start(arguments, format);
+    vsnprintf(to->note, sizeof to->note, format, arguments);
+    va_end(arguments);
+}
+
+static void add(fm_verdict *verdict, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* Parts of the reason, with "; " between them; what does not fit is left out. */
+static void add(fm_verdict *verdict, const char *format, ...)
+{
+    size_t used = strlen(verdict->reason);
+    va_list arguments;
+    if (used > 0 && used + 3 < sizeof verdict->reason) {
+        memcpy(verdict->reason + used, "; ", 3);
+        used += 2;
+    }
+    va_start(arguments, format);
+    vsnprintf(verdict->reason + used, sizeof verdict->reason - used, format, arguments);
+    va_end(arguments);
+}
+
+void judging_end(fm_verdict *verdict, const judging *to)
+{
+    char a[160], b[160];
+    size_t few = 0;
+    *verdict = (fm_verdict){ .kind = to->worst.kind, .measured = to->worst.measured };
+    if (to->count > 1)
+        add(verdict, "%zu compared, %.4g to %.4g", to->count, to->least, to->greatest);
+    if (to->worst.a != NULL) {
+        claim_point_name(a, to->rows, to->worst.a);
+        if (to->worst.b != NULL)
+            claim_point_name(b, to->rows, to->worst.b);
+        add(verdict, "%s: %s%s%s", to->claim->form == FM_CLAIM_ANY ? "best" : "decided at", a,
+            to->worst.b != NULL ? " / " : "", to->worst.b != NULL ? b : "");
+    }
+    for (size_t i = 0; i < to->points->count; i++)
+        few += to->points->points[i].has_few_samples;
+    if (few > 0)
+        add(verdict, "%zu with fewer than 5 samples, taken as within 15 %%", few);
+    if (to->note[0] != '\0')
+        add(verdict, "%s", to->note);
+    if (to->points->missing_count > 0)
+        add(verdict, "%zu left out (%s)", to->points->missing_count, to->points->missing);
+}

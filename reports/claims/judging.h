@@ -1,0 +1,30 @@
+/* What decides a claim of several points: the worst of them; for form `any` the best. */
+#ifndef FM_CLAIM_JUDGING_H
+#define FM_CLAIM_JUDGING_H
+
+#include "forms.h"
+
+typedef struct decision {
+    fm_verdict_kind kind;
+    fm_interval measured;
+    double margin;               /* of two of a kind, the smaller one is worse */
+    const fm_claim_point *a, *b; /* between which points; b may be NULL */
+} decision;
+
+typedef struct judging {
+    const fm_claim *claim;
+    const fm_claim_rows *rows;
+    const fm_claim_points *points;
+    decision worst;
+    double least, greatest; /* medians of all decisions */
+    size_t count;
+    char note[160]; /* the first reason why something was not judged */
+} judging;
+
+void judging_begin(judging *to);
+void judging_decide(judging *to, const decision *made);
+void judging_note(judging *to, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* The verdict, and its reason in words. */
+void judging_end(fm_verdict *verdict, const judging *to);
+
+#endif

@@ -1,0 +1,347 @@
+#include "points.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "group.h"
+#include "match.h"
+#include "text.h"
+
+enum { SAMPLES_WANTED = 5 };
+static const double few_samples_share = 0.15; /* what timings of one case scatter by */
+
+/* ---- values ---- */
+
+static bool is_time(const fm_name_list *metrics)
+{
+    for (size_t i = 0; i < metrics->count; i++) {
+        const size_t length = strlen(metrics->names[i]);
+        if (length > 3 && strcmp(metrics->names[i] + length - 3, "_ms") == 0)
+            return true;
+    }
+    return false;
+}
+
+static fm_interval widened(fm_interval value)
+{
+    value.low = fmin(value.low, value.median * (1.0 - few_samples_share));
+    value.high = fmax(value.high, value.median * (1.0 + few_samples_share));
+    return value;
+}
+
+static fm_interval measured_value(bool *has_few, const fm_selection *selection,
+                                  const fm_claim_rows *rows, const fm_case_row *result)
+{
+    size_t samples = 0;
+    fm_interval value = result_files_interval(&samples, rows->results, result,
+                                              selection->metrics.names, selection->metrics.count);
+    if (samples == 0)
+        samples = isnan(result->samples) ? 0 : (size_t)result->samples;
+    if (!is_time(&selection->metrics) || samples >= SAMPLES_WANTED)
+        return value;
+    *has_few = true;
+    return widened(value);
+}
+
+static fm_interval formula_value(const fm_selection *selection, const fm_case_row *result)
+{
+    const double pixels = result->width_px * result->height_px;
+    const double factors[FM_FORMULA_TERMS] = { 1.0, pixels, pixels * result->k, pixels * result->n,
+                                               result->fragments_generated };
+    double sum = 0.0;
+    for (int i = 0; i < FM_FORMULA_TERMS; i++)
+        if (selection->formula[i] != 0.0)
+            sum += selection->formula[i] * factors[i];
+    return (fm_interval){ sum, sum, sum };
+}
+
+/* ---- points ---- */
+
+typedef struct points_job {
+    fm_claim_points *points;
+    const fm_claim *claim;
+    const fm_claim_rows *rows;
+    size_t room;
+} points_job;
+
+static void note_missing(points_job *job, const fm_case_row *result, const char *why)
+{
+    if (job->points->missing_count++ > 0)
+        return;
+    snprintf(job->points->missing, sizeof job->points->missing, "%.60s%s%.12g: %.120s",
+             result->look.title != NULL ? result->look.title : result->method,
+             isnan(result->k) ? " n " : " k ", isnan(result->k) ? result->n : result->k, why);
+}
+
+static bool has_value(points_job *job, const fm_case_row *result, const fm_interval *value)
+{
+    if (isfinite(value->median))
+        return true;
+    note_missing(job, result, result->is_measured ? "no such metric" : result->status);
+    return false;
+}
+
+/* The columns that a selection names itself may differ from `of`. */
+static fm_name_list own_columns(const fm_selection *selection)
+{
+    fm_name_list list = { 0 };
+    for (size_t i = 0; i < selection->test_count; i++)
+        if (selection->tests[i].is_own)
+            list.names[list.count++] = selection->tests[i].key;
+    return list;
+}
+
+/* Same method and options, but for what the other selection names itself. */
+static bool is_own_partner(const fm_selection *selection, const fm_case_row *of,
+                           const fm_case_row *other)
+{
+    const fm_name_list own = own_columns(selection);
+    if (!name_list_names(&own, "method") && strcmp(of->method, other->method) != 0)
+        return false;
+    return name_list_names(&own, "method") || group_same_own_options(of, other, &own);
+}
+
+/* The row of `selection` for the workload of `of`, and its value; NULL: there is none. */
+static const fm_case_row *find_partner(fm_interval *best, bool *has_few, points_job *job,
+                                       const fm_selection *selection, const fm_case_row *of)
+{
+    const fm_case_row *found = NULL;
+    const fm_name_list own = own_columns(selection);
+    for (size_t i = 0; i < job->rows->results->count; i++) {
+        const fm_case_row *other = &job->rows->results->cases[i];
+        if (!match_takes(job->claim, job->rows, i) || !match_row(selection, job->rows, i) ||
+            !match_workload(of, other, &own) || !is_own_partner(selection, of, other))
+            continue;
+        const fm_interval value = measured_value(has_few, selection, job->rows, other);
+        if (!has_value(job, other, &value))
+            continue;
+        const bool is_better = selection->take == FM_TAKE_GREATEST ? value.median > best->median
+                                                                   : value.median < best->median;
+        if (found == NULL || is_better) {
+            *best = value;
+            found = other;
+        }
+    }
+    return found;
+}
+
+/* One operand for the point's row; false: there is none. */
+static bool operand(fm_interval *value, fm_claim_point *point, points_job *job,
+                    const fm_selection *selection)
+{
+    if (selection->is_formula) {
+        *value = formula_value(selection, point->result);
+        return isfinite(value->median);
+    }
+    point->other = find_partner(value, &point->has_few_samples, job, selection, point->result);
+    if (point->other == NULL)
+        note_missing(job, point->result, "nothing measured to compare it with");
+    return point->other != NULL;
+}
+
+static double x_of(const points_job *job, const fm_case_row *result)
+{
+    char option[128];
+    double x = NAN;
+    if (job->claim->along[0] == '\0')
+        return NAN;
+    x = result_files_metric(job->rows->results, result, job->claim->along);
+    match_option(option, result->options, job->claim->along);
+    if (isnan(x) && !text_to_double(&x, option))
+        x = NAN;
+    return x;
+}
+
+static bool evaluate(fm_claim_point *point, points_job *job, const fm_selection *of)
+{
+    fm_interval other = { 0 };
+    const fm_claim *claim = job->claim;
+    point->x = x_of(job, point->result);
+    if (claim->form == FM_CLAIM_IMAGES)
+        return operand(&other, point, job, &claim->over);
+    point->value = measured_value(&point->has_few_samples, of, job->rows, point->result);
+    if (!has_value(job, point->result, &point->value))
+        return false;
+    if (claim->has_minus) {
+        if (!operand(&other, point, job, &claim->minus))
+            return false;
+        point->value = interval_difference(point->value, other);
+    }
+    if (claim->has_over) {
+        if (!operand(&other, point, job, &claim->over))
+            return false;
+        point->value = interval_ratio(point->value, other);
+    }
+    return isfinite(point->value.median);
+}
+
+/* With take: least or greatest, one point a workload. */
+static void add_point(points_job *job, const fm_selection *of, const fm_claim_point *point)
+{
+    fm_claim_points *to = job->points;
+    const fm_name_list none = { 0 };
+    for (size_t i = 0; i < to->count && of->take != FM_TAKE_EACH; i++) {
+        fm_claim_point *old = &to->points[i];
+        if (old->selection != point->selection ||
+            !match_workload(old->result, point->result, &none))
+            continue;
+        const bool is_better = of->take == FM_TAKE_LEAST ? point->value.median < old->value.median
+                                                         : point->value.median > old->value.median;
+        if (is_better)
+            *old = *point;
+        return;
+    }
+    if (to->count < job->room)
+        to->points[to->count++] = *point;
+}
+
+static void add_summary_points(points_job *job, size_t selection)
+{
+    const fm_selection *of = &job->claim->of[selection];
+    for (size_t i = 0; i < job->rows->results->count; i++) {
+        fm_claim_point point = { .result = &job->rows->results->cases[i], .selection = selection };
+        if (match_takes(job->claim, job->rows, i) && match_row(of, job->rows, i) &&
+            evaluate(&point, job, of))
+            add_point(job, of, &point);
+    }
+}
+
+/* ---- memory.csv ---- */
+
+static double memory_value(const fm_selection *selection, const fm_claim_rows *rows, size_t row)
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < selection->metrics.count; i++) {
+        double value = NAN;
+        table_number(&value, rows->memory, row,
+                     table_column(rows->memory, selection->metrics.names[i]), NULL);
+        sum += value;
+    }
+    return sum;
+}
+
+/* Of the same column of the paper's table, unless the selection names one. */
+static double memory_partner(const fm_selection *selection, const fm_claim_rows *rows, size_t row)
+{
+    const size_t workload = table_column(rows->memory, "workload");
+    const fm_name_list own = own_columns(selection);
+    for (size_t i = 0; i < rows->memory->row_count; i++)
+        if (match_memory_row(selection, rows, i) &&
+            (name_list_names(&own, "workload") ||
+             strcmp(table_cell(rows->memory, i, workload),
+                    table_cell(rows->memory, row, workload)) == 0))
+            return memory_value(selection, rows, i);
+    return NAN;
+}
+
+static void add_memory_points(points_job *job, size_t selection)
+{
+    const fm_selection *of = &job->claim->of[selection];
+    const fm_claim_rows *rows = job->rows;
+    for (size_t row = 0; rows->memory != NULL && row < rows->memory->row_count; row++) {
+        if (!match_memory_row(of, rows, row))
+            continue;
+        double value = memory_value(of, rows, row);
+        if (job->claim->has_minus)
+            value -= memory_partner(&job->claim->minus, rows, row);
+        if (job->claim->has_over)
+            value /= memory_partner(&job->claim->over, rows, row);
+        if (isfinite(value) && job->points->count < job->room)
+            job->points->points[job->points->count++] = (fm_claim_point){
+                .value = { value, value, value }, .x = NAN, .row = row, .selection = selection
+            };
+    }
+}
+
+/* ---- order and names ---- */
+
+static fm_name_list free_columns_of(const fm_claim *claim)
+{
+    fm_name_list list = claim->across;
+    if (claim->along[0] != '\0' && list.count < FM_NAME_LIST)
+        list.names[list.count++] = claim->along;
+    return list;
+}
+
+bool claim_point_same_workload(const fm_claim *claim, const fm_claim_point *a,
+                               const fm_claim_point *b)
+{
+    if (a->result == NULL || b->result == NULL)
+        return a->result == b->result;
+    const fm_name_list list = claim->form == FM_CLAIM_ORDER ? own_columns(&claim->of[b->selection])
+                                                            : free_columns_of(claim);
+    return match_workload(a->result, b->result, &list);
+}
+
+bool claim_point_same_series(const fm_claim *claim, const fm_claim_point *a,
+                             const fm_claim_point *b)
+{
+    if (a->selection != b->selection || !claim_point_same_workload(claim, a, b))
+        return false;
+    const fm_name_list list = free_columns_of(claim);
+    return a->result == NULL || claim->of[a->selection].take != FM_TAKE_EACH ||
+           (strcmp(a->result->method, b->result->method) == 0 &&
+            group_same_own_options(a->result, b->result, &list));
+}
+
+/* Brings the points of each series together, x rising: an insertion sort, which the few points of
+ * a claim allow, for "same series" is no order. */
+static void sort_points(const fm_claim *claim, fm_claim_points *points)
+{
+    for (size_t i = 1; i < points->count; i++) {
+        const fm_claim_point point = points->points[i];
+        size_t place = i;
+        for (size_t j = 0; j < i; j++)
+            if (claim_point_same_series(claim, &points->points[j], &point))
+                place = j + 1;
+        while (place > 0 && claim_point_same_series(claim, &points->points[place - 1], &point) &&
+               points->points[place - 1].x > point.x)
+            place--;
+        memmove(points->points + place + 1, points->points + place,
+                (i - place) * sizeof *points->points);
+        points->points[place] = point;
+    }
+}
+
+void claim_point_name(char name[160], const fm_claim_rows *rows, const fm_claim_point *point)
+{
+    char title[96];
+    if (point->result == NULL) {
+        snprintf(name, 160, "%.60s, %.60s",
+                 table_cell(rows->memory, point->row, table_column(rows->memory, "title")),
+                 table_cell(rows->memory, point->row, table_column(rows->memory, "workload")));
+        return;
+    }
+    group_series_title(title, point->result);
+    const size_t used = (size_t)snprintf(name, 160, "%.80s", title);
+    match_name_columns(name + used, 160 - used, rows, point->result);
+}
+
+fm_status claim_points_make(fm_claim_points *points, const fm_claim *claim,
+                            const fm_claim_rows *rows, fm_error *err)
+{
+    const size_t memory_rows = rows->memory != NULL ? rows->memory->row_count : 0;
+    *points = (fm_claim_points){ 0 };
+    points_job job = { .points = points,
+                       .claim = claim,
+                       .rows = rows,
+                       .room = claim->of_count * (rows->results->count + memory_rows) + 1 };
+    points->points = calloc(job.room, sizeof *points->points);
+    if (points->points == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "claim %s: %zu points", claim->id, job.room);
+    for (size_t i = 0; i < claim->of_count; i++)
+        if (claim->of[i].table == FM_SELECT_MEMORY)
+            add_memory_points(&job, i);
+        else
+            add_summary_points(&job, i);
+    sort_points(claim, points);
+    return FM_OK;
+}
+
+void claim_points_free(fm_claim_points *points)
+{
+    free(points->points);
+    *points = (fm_claim_points){ 0 };
+}

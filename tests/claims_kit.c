@@ -1,0 +1,135 @@
+#include "claims_kit.h"
+
+static const char header[] =
+    "schema,case_id,status,message,method,method_version,device,device_name,feed,scene,width_px,"
+    "height_px,n,k,r,pixel_density,fragment_probability,tessellation,order,seed,options,launches,"
+    "samples,frame_ms,frame_ms_low,frame_ms_high,clear_ms,count_ms,reference_ms,store_ms,"
+    "resolve_ms,times_floor,bytes_allocated,bytes_predicted,bytes_used,fragments_generated,"
+    "fragments_stored,fragments_lost,missing,extra,misordered,depth_ulp_max,rmse,psnr_db,max_abs,"
+    "ssim,flip,truncation_rmse,distinct_images,frame_wall_ms,fragments_per_s\n";
+static const char manifest[] =
+    "{\"methods\": {\"a\": {\"title\": \"A\"}, \"b\": {\"title\": \"B\"}},"
+    " \"devices\": [{\"selector\": \"soft\", \"name\": \"llvmpipe\", \"is_software\": true},"
+    " {\"selector\": \"hard\", \"name\": \"H100\", \"is_software\": false}]}";
+
+static const char *given(const char *text, const char *usual)
+{
+    return text != NULL ? text : usual;
+}
+
+static void add_summary(fm_text *csv, const fake *row, int index)
+{
+    const char *device = given(row->device, "soft"), *status = given(row->status, "ok");
+    const bool is_ok = strcmp(status, "ok") == 0;
+    const int samples = row->samples == 0 ? 6 : row->samples;
+    text_add(csv, "1,c%d,%s,,%s,1,%s,%s,%s,layers,64,32,16,", index, status, row->method, device,
+             strcmp(device, "soft") == 0 ? "llvmpipe" : "H100", given(row->feed, "raster"));
+    if (row->k > 0.0)
+        text_add(csv, "%g", row->k);
+    text_add(csv, ",,%g,1,1,random,1,%s,1,", row->pixel_density, given(row->options, ""));
+    if (!is_ok) {
+        text_add(csv, "0,,,,,,,,,,,,,,,,,,,,,,,,,,,,\n");
+        return;
+    }
+    text_add(csv, "%d,%g,%g,%g,0.1,,,%g,%g,2,%g,4096,1,%g,1,0,%g,0,0,0,0,inf,0,1,,,1,1,1\n",
+             samples, row->frame_ms, row->frame_ms * 0.9, row->frame_ms * 1.1,
+             row->frame_ms - row->resolve_ms, row->resolve_ms, row->bytes,
+             1000.0 * row->pixel_density, row->missing);
+}
+
+static void add_samples(fm_text *csv, const fake *row, int index)
+{
+    const int samples = row->samples == 0 ? 6 : row->samples;
+    const double noise = row->noise > 0.0 ? row->noise : 0.01;
+    for (int i = 0; i < samples && row->status == NULL; i++) {
+        const double off = samples == 1 ? 0.0 : noise * (2.0 * i / (samples - 1) - 1.0);
+        text_add(csv, "1,r,c%d,0,%d,frame_ms,%.9g,ms\n", index, i, row->frame_ms * (1.0 + off));
+        text_add(csv, "1,r,c%d,0,%d,resolve_ms,%.9g,ms\n", index, i, row->resolve_ms);
+    }
+}
+
+void kit_write_file(const char *directory, const char *name, const char *text)
+{
+    char path[1024];
+    snprintf(path, sizeof path, "%s/%s", directory, name);
+    assert_int_equal(text_write_file(path, text, strlen(text), NULL), FM_OK);
+}
+
+void kit_make_results(char directory[64], const fakes *all)
+{
+    fm_text summary = { 0 }, samples = { 0 };
+    snprintf(directory, 64, "/tmp/fragmark-claims-XXXXXX");
+    assert_non_null(mkdtemp(directory));
+    text_add(&summary, "%s", header);
+    text_add(&samples, "schema,run_id,case_id,launch,frame,metric,value,unit\n");
+    for (int i = 0; i < 12 && all->rows[i].method != NULL; i++) {
+        add_summary(&summary, &all->rows[i], i);
+        add_samples(&samples, &all->rows[i], i);
+    }
+    kit_write_file(directory, "summary.csv", summary.bytes);
+    kit_write_file(directory, "samples.csv", samples.bytes);
+    kit_write_file(directory, "manifest.json", manifest);
+    text_free(&summary);
+    text_free(&samples);
+}
+
+void kit_remove_directory(const char *directory)
+{
+    char command[128];
+    snprintf(command, sizeof command, "rm -r '%s'", directory);
+    assert_int_equal(system(command), 0);
+}
+
+/* Writes a figure with the claim whose keys are given, one a line. */
+fm_status kit_read_figure(fm_paper_figure **figure, const char *directory, const char *claim,
+                          fm_error *err)
+{
+    char path[1024];
+    fm_text text = { 0 };
+    text_add(&text, "id: f-1\npaper: f\ntitle: t\ncharts:\n"
+                    "  - { id: c, title: c, x: k, y: frame_ms }\nclaims:\n  - id: F-1\n"
+                    "    text: so it is\n");
+    while (*claim != '\0') {
+        const size_t length = strcspn(claim, "\n");
+        text_add(&text, "    %.*s\n", (int)length, claim);
+        claim += length + (claim[length] == '\n');
+    }
+    kit_write_file(directory, "f-1.yml", text.bytes);
+    snprintf(path, sizeof path, "%s/f-1.yml", directory);
+    text_free(&text);
+    return paper_figure_read(figure, path, err);
+}
+
+judged judge_beside(const char *claim, const fakes *rows, const fakes *reference)
+{
+    char directory[64], other[64] = "";
+    fm_error err = { 0 };
+    fm_result_files *results = NULL, *reference_results = NULL;
+    fm_paper_figure *figure = NULL;
+    fm_claim_results verdicts;
+    kit_make_results(directory, rows);
+    if (kit_read_figure(&figure, directory, claim, &err) != FM_OK)
+        fail_msg("%s", err.message);
+    assert_int_equal(result_files_read(&results, directory, &err), FM_OK);
+    if (reference != NULL) {
+        kit_make_results(other, reference);
+        assert_int_equal(result_files_read(&reference_results, other, &err), FM_OK);
+    }
+    const fm_paper_figure *const figures[] = { figure };
+    const fm_verdicts_desc desc = { results, reference_results, figures, 1 };
+    if (verdicts_make(&verdicts, &desc, &err) != FM_OK)
+        fail_msg("%s", err.message);
+    assert_true(verdicts.count > 0);
+    judged made = { .verdict = verdicts.items[0].verdict,
+                    .count = verdicts.count,
+                    .required_failed = verdicts_required_failed(&verdicts) };
+    snprintf(made.device, sizeof made.device, "%s", verdicts.items[0].device);
+    verdicts_free(&verdicts);
+    paper_figure_close(figure);
+    result_files_close(results);
+    result_files_close(reference_results);
+    kit_remove_directory(directory);
+    if (reference != NULL)
+        kit_remove_directory(other);
+    return made;
+}
