@@ -33,7 +33,11 @@ typedef struct fm_frame_result {
     uint64_t wall_ns;                /* host: with read-backs, allocation and what was done again */
     uint64_t lost, culled, locked;   /* fragments; the last two in the checked build only */
     uint32_t redos;                  /* frames done again because something had to grow */
+    uint64_t redone_ns;              /* of all passes of those frames; in no pass_ns */
 } fm_frame_result;
+
+/* Of all passes together. */
+uint64_t frame_passes_ns(const fm_frame_result *result);
 
 /* FM_UNSUPPORTED: the device lacks something, with the reason; FM_SHADER: with plugin and pass. */
 fm_status instance_create(fm_instance **instance, const fm_instance_desc *desc, fm_error *err);

@@ -29,14 +29,6 @@ uint32_t measure_places(const fm_method_desc *method, uint32_t k)
     return wanted == UINT32_MAX ? 0 : wanted;
 }
 
-static uint64_t sum_passes(const fm_frame_result *frame)
-{
-    uint64_t sum = 0;
-    for (size_t i = 0; i < FM_MAX_PASSES; i++)
-        sum += frame->pass_ns[i];
-    return sum;
-}
-
 static uint64_t store_time(const fm_frame_result *frame, const fm_method_desc *method)
 {
     uint64_t sum = 0;
@@ -58,6 +50,7 @@ static fm_status frame_again_if_lossy(fm_frame_result *result, fm_measurement *m
     for (int i = 0; i < tries && status == FM_OK; i++) {
         status = instance_frame(result, instance, band, err);
         measurement->frames_redone += result->redos;
+        measurement->redone_ns += result->redone_ns;
         if (status != FM_OK || result->lost == 0)
             break;
         measurement->frames_lossy++;
@@ -88,7 +81,7 @@ static fm_status sample_floor(fm_sample *sample, const launch_pair *pair, fm_err
 {
     fm_frame_result result;
     fm_status status = instance_frame(&result, pair->floor, NULL, err);
-    sample->floor_frame_ns = sum_passes(&result);
+    sample->floor_frame_ns = frame_passes_ns(&result);
     sample->floor_store_ns = store_time(&result, pair->desc->floor->method);
     return status;
 }

@@ -26,6 +26,7 @@ typedef struct fm_measurement {
     uint64_t bytes_allocated, bytes_predicted, bytes_used;
     uint64_t lost;
     uint64_t frames_redone; /* because something had to grow; warm-up and check included */
+    uint64_t redone_ns;     /* of the passes of the frames that were thrown away for it */
     uint64_t frames_lossy;  /* run again on a software rasteriser, since a lock gave up */
     fm_image *image;        /* of the last timed frame; owned */
 

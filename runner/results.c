@@ -168,6 +168,14 @@ static void add_sample_row(fm_text *rows, const fm_results *results, const char 
     text_add(rows, "\n");
 }
 
+static const char *unit_of(const char *metric)
+{
+    const size_t length = strlen(metric);
+    if (length > 3 && strcmp(metric + length - 3, "_ms") == 0)
+        return "ms";
+    return strstr(metric, "bytes") != NULL ? "B" : "";
+}
+
 /* Metrics of the case that summary.csv has no column for: rows without launch and frame. */
 static void add_metric_rows(fm_text *rows, const fm_results *results, const char *case_id,
                             json_t *metrics)
@@ -187,7 +195,7 @@ static void add_metric_rows(fm_text *rows, const fm_results *results, const char
             csv_add_real(rows, json_real_value(value));
         else
             csv_add(rows, json_string_value(value));
-        text_add(rows, ",%s\n", strstr(name, "bytes") != NULL ? "B" : "");
+        text_add(rows, ",%s\n", unit_of(name));
     }
 }
 

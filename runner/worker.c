@@ -205,6 +205,7 @@ static void add_metrics(launch_job *job)
     set_count(metrics, "fragments_generated", job->truth->fragment_count);
     set_count(metrics, "fragments_lost", m->lost);
     set_count(metrics, "frames_redone", m->frames_redone);
+    set_number(metrics, "redone_ms", (double)m->redone_ns * 1e-6);
     set_count(metrics, "frames_lossy", m->frames_lossy);
     if (m->is_checked)
         add_checked(metrics, m, job->truth);

@@ -23,6 +23,8 @@
  *     "samples": [ { "frame": 0, "metric": "store_ms", "value": 1.25, "unit": "ms" }, ... ] }
  * Metrics of a case: n, bytes_allocated, bytes_predicted, bytes_used, fragments_generated,
  *   fragments_stored, fragments_lost, frames_redone, frames_lossy, fragments_culled, locks_taken,
+ *   redone_ms (of the passes of all frames thrown away because something had to grow: what a growing
+ *   method costs beside frame_ms),
  * and with "check": missing, extra, misordered, depth_ulp_max, wrong_pixels, nonempty_pixels,
  * self_max_abs (timed image against its own fragments, where ties do not leave their order open),
  * rmse, psnr_db, max_abs, ssim, truncation_rmse, total_rmse (against the picture of all fragments).

@@ -220,6 +220,29 @@ static void an_extent_beyond_64_bits_is_no_memory(void **state)
     }
 }
 
+static void expect_redone(kit_scene *scene, const char *method, uint64_t frames)
+{
+    fm_measurement m;
+    assert_true(kit_measure(&m, scene, &(kit_way){ method, FM_FEED_RASTER, "" }));
+    assert_int_equal(m.frames_redone, frames);
+    assert_int_equal(m.redone_ns > 0, frames > 0);
+    measurement_free(&m);
+}
+
+/* A list's pool starts too small: the first frame of the timed build and that of the checked one
+ * are thrown away, and what they cost is told. An array of n never grows. */
+static void frames_thrown_away_are_counted_and_timed(void **state)
+{
+    scene_kit kit;
+    kit_scene scene;
+    kit_open(&kit, device_of(state));
+    kit_scene_open(&scene, &kit, "width_px=16 height_px=16 n=9 pixel_density=1");
+    expect_redone(&scene, "ab-ll", 2);
+    expect_redone(&scene, "ab-array", 0);
+    kit_scene_close(&scene);
+    kit_close(&kit);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -230,6 +253,7 @@ int main(void)
         ON_VULKAN_AND_OSMESA(a_method_that_asks_for_ballots_has_their_words),
         ON_VULKAN_AND_OSMESA(only_a_method_that_asks_for_64_bits_has_them),
         ON_VULKAN_AND_OSMESA(an_extent_beyond_64_bits_is_no_memory),
+        ON_VULKAN_AND_OSMESA(frames_thrown_away_are_counted_and_timed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
