@@ -165,6 +165,12 @@ void instance_destroy(fm_instance *instance)
     free(instance);
 }
 
+uint64_t instance_k_chosen(const fm_instance *instance)
+{
+    const int total = total_index(instance->method, instance->method->k_total);
+    return total >= 0 ? instance->totals[total] : 0;
+}
+
 fm_slot *instance_slot(fm_instance *instance, const char *name)
 {
     bool is_previous;

@@ -52,8 +52,10 @@ bool instance_can_emit_again(const fm_instance *instance);
 
 /* Bytes as the descriptor's formula says, after a frame has sized everything. */
 uint64_t instance_bytes_predicted(const fm_instance *instance);
-/* Bytes of elements that hold something in a frame. */
-uint64_t instance_bytes_used(const fm_instance *instance);
+/* Bytes of elements that hold something in a frame that keeps F_k fragments. */
+uint64_t instance_bytes_used(const fm_instance *instance, uint64_t fragments_kept);
+/* The k of the last frame, where the method chooses it; 0: it does not. */
+uint64_t instance_k_chosen(const fm_instance *instance);
 /* The resource of this name; its buffer may be read between frames. NULL: none. */
 fm_slot *instance_slot(fm_instance *instance, const char *name);
 

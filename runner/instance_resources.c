@@ -199,7 +199,7 @@ uint64_t instance_bytes_predicted(const fm_instance *instance)
     return formula_sum(formula_bytes(instance->method, &instance->workload), locks);
 }
 
-uint64_t instance_bytes_used(const fm_instance *instance)
+uint64_t instance_bytes_used(const fm_instance *instance, uint64_t fragments_kept)
 {
     const uint64_t pixels = (uint64_t)instance->workload.width_px * instance->workload.height_px;
     uint64_t bytes = instance->is_spin_locked ? pixels * 4 : 0;
@@ -207,7 +207,7 @@ uint64_t instance_bytes_used(const fm_instance *instance)
         const fm_resource *resource = &instance->method->resources[i];
         const uint64_t elements = resource->used.per_pixel * pixels +
                                   resource->used.per_fragment * instance->workload.fragments +
-                                  resource->used.per_kept * instance->workload.fragments_kept;
+                                  resource->used.per_kept * fragments_kept;
         bytes += resource->kind == FM_RESOURCE_IMAGE
                      ? formula_image_bytes(resource, &instance->workload)
                      : elements * fm_element_bytes(resource->element);

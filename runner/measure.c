@@ -1,5 +1,6 @@
 #include "measure.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -132,6 +133,36 @@ static fm_status read_image(fm_image **image, fm_stage *stage, fm_error *err)
     return status;
 }
 
+/* A k that the method chose is judged before anything is compared with it. */
+static fm_status take_k(fm_measurement *measurement, const fm_instance *instance,
+                        const fm_instance_desc *desc, fm_error *err)
+{
+    const uint64_t k = instance_k_chosen(instance);
+    if (desc->method->k_total == NULL)
+        return FM_OK;
+    if (k == 0 || k > desc->settings->k)
+        return fm_fail(err, FM_INVALID, "%s: total '%s' chose k = %" PRIu64 ", not 1 to %u",
+                       desc->method->id, desc->method->k_total, k, desc->settings->k);
+    measurement->k_chosen = (uint32_t)k;
+    return FM_OK;
+}
+
+static uint32_t wanted_of(const fm_measurement *measurement, const fm_measure_desc *desc)
+{
+    return measurement->k_chosen > 0
+               ? measurement->k_chosen
+               : measure_wanted(desc->method->method, desc->method->settings->k);
+}
+
+static void take_bytes(fm_measurement *measurement, const fm_instance *instance,
+                       const fm_measure_desc *desc)
+{
+    const uint64_t kept = measurement->k_chosen > 0 ? truth_kept(desc->truth, measurement->k_chosen)
+                                                    : desc->method->fragments_kept;
+    measurement->bytes_predicted = instance_bytes_predicted(instance);
+    measurement->bytes_used = instance_bytes_used(instance, kept);
+}
+
 /* The timed part; the method's memory is given back before the checked build asks for its own. The
  * floor's frame writes no image, so the method's stays in the output. */
 static fm_status measure_times(fm_measurement *measurement, const fm_measure_desc *desc,
@@ -148,10 +179,11 @@ static fm_status measure_times(fm_measurement *measurement, const fm_measure_des
         status = take_samples(measurement, &(launch_pair){ method, floor, desc }, err);
     if (status == FM_OK)
         status = read_image(&measurement->image, stage, err);
+    if (status == FM_OK)
+        status = take_k(measurement, method, desc->method, err);
     if (status == FM_OK) {
         measurement->bytes_allocated = ledger->bytes[FM_OWNER_METHOD] - before;
-        measurement->bytes_predicted = instance_bytes_predicted(method);
-        measurement->bytes_used = instance_bytes_used(method);
+        take_bytes(measurement, method, desc);
     }
     instance_destroy(method);
     instance_destroy(floor);
@@ -281,7 +313,7 @@ static fm_status check_fragments(fm_measurement *measurement, const fm_measure_d
     checking check = { .measurement = measurement,
                        .truth = desc->truth,
                        .stage = desc->method->stage,
-                       .wanted = measure_wanted(desc->method->method, desc->method->settings->k) };
+                       .wanted = wanted_of(measurement, desc) };
     fm_instance_desc capture = *desc->method;
     fm_instance *instance = NULL;
     fm_status status = create_checking(&check, desc, err);
@@ -302,7 +334,7 @@ static fm_status check_fragments(fm_measurement *measurement, const fm_measure_d
 static fm_status check_images(fm_measurement *measurement, const fm_measure_desc *desc,
                               fm_error *err)
 {
-    const uint32_t wanted = measure_wanted(desc->method->method, desc->method->settings->k);
+    const uint32_t wanted = wanted_of(measurement, desc);
     fm_image *all = NULL;
     fm_image_error apart;
     fm_status status = truth_composite(&measurement->truth_image, desc->truth,

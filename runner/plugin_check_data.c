@@ -303,10 +303,21 @@ static fm_status check_total(const fm_checked_method *check, const fm_total *tot
     return FM_OK;
 }
 
+static fm_status check_k_total(const fm_checked_method *check, fm_error *err)
+{
+    size_t index;
+    if (check->method->k_total == NULL)
+        return FM_OK;
+    if (check->method->keeps != FM_KEEPS_K_NEAREST)
+        return fm_fail(err, FM_INVALID, "k_total '%s': only with FM_KEEPS_K_NEAREST",
+                       check->method->k_total);
+    return check_known(&index, check->method->k_total, "k_total", &check->totals, err);
+}
+
 fm_status check_totals(const fm_checked_method *check, fm_error *err)
 {
     for (size_t i = 0; i < check->totals.count; i++)
         if (check_total(check, &check->method->totals[i], err) != FM_OK)
             return fm_error_prefix(err, "total '%s'", check->totals.items[i]);
-    return FM_OK;
+    return check_k_total(check, err);
 }

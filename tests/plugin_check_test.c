@@ -136,6 +136,8 @@ static void plugin_check_rejects_bad_heads(void **state)
     REFUSES(m.features = 1u << 30, "features");
     REFUSES(m.feeds = 1u << 6, "feeds");
     REFUSES(m.keeps = FM_KEEPS_COUNT, "keeps");
+    REFUSES(m.k_total = "sorted", "k_total 'sorted': no such total; nearest is 'stored'");
+    REFUSES((m.k_total = "stored", m.keeps = FM_KEEPS_ALL), "only with FM_KEEPS_K_NEAREST");
     REFUSES(m.family = FM_FAMILY_COUNT, "family");
     REFUSES(m.marker = FM_MARKER_COUNT, "marker");
 }

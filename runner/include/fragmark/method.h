@@ -382,6 +382,10 @@ typedef struct fm_method_desc {
     /* Hooks, for what data cannot say. */
     uint64_t (*bytes)(const fm_workload *);                  /* NULL: what the extents say */
     fm_next (*after)(const fm_workload *, const char *pass); /* NULL: FM_NEXT */
+
+    /* FM_KEEPS_K_NEAREST only: the total that is the frame's k where the method chooses it, from 1
+     * to the axis k. Truth wants that many, samples.csv tells them as k_chosen. NULL: k itself. */
+    const char *k_total;
 } fm_method_desc;
 
 /* The one symbol of a plugin. Compile plugins with hidden visibility. */
