@@ -110,6 +110,14 @@ static uint64_t scanned(const workload *w)
     return 8 * w->fragments + 8 * w->pixels + 4 * (2 * w->tiles + 3);
 }
 
+/* The k+-buffer of what is chosen, with memory enough and nothing discarded; histogram and choice.
+ */
+static uint64_t chosen_kplus(const workload *w)
+{
+    const uint64_t chosen = w->k < w->n ? w->k : w->n;
+    return (8 * chosen + 4 + 4) * w->pixels + 4 * (1024 + 2);
+}
+
 /* Counter and address; one, 30 or 32 shared counters and as many prefix sums. */
 static uint64_t l_buffer(const workload *w)
 {
@@ -138,6 +146,7 @@ static const struct formula {
 } formulas[] = {
     { "kplus-array", kplus },
     { "kplus-heap", kplus },
+    { "kplus-dynamic", chosen_kplus },
     { "kb", k_buffer },
     { "kb-mdt64", k_buffer },
     { "mlab", locked_k_buffer },

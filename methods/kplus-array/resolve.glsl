@@ -1,5 +1,7 @@
 #include "common/array.glsl"
+#ifndef SORT_CAPACITY
 #define SORT_CAPACITY K
+#endif
 #include "common/sort.glsl"
 
 // `count` fragments lie in the last slots.

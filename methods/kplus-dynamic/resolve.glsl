@@ -1,0 +1,2 @@
+#include "kplus-dynamic/chosen.glsl"
+#include "kplus-array/resolve.glsl"
