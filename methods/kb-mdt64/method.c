@@ -7,7 +7,7 @@ const fm_method_desc fm_method = {
     .title = "KB-MDT-64",
     .citation = "Maule, Comba, Torchelsen, Bastos 2013, Hybrid Transparency, "
                 "doi:10.1145/2448196.2448212",
-    .version = "1",
+    .version = "2",
     .traits = FM_TRAIT_EXACT | FM_TRAIT_BOUNDED,
     .features = FM_FEATURE_INT64_ATOMICS,
     .keeps = FM_KEEPS_K_NEAREST,
