@@ -106,6 +106,17 @@ static VkPipelineShaderStageCreateInfo stage_info(VkShaderStageFlagBits stage,
     };
 }
 
+/* A driver's compiler may give up and name no reason (seen on an NVIDIA GPU at a resolve pass with
+ * a private array of 2000 records): the device cannot do it, and is not lost. */
+static fm_status creation_failed(fm_error *err, VkResult result, const char *name)
+{
+    if (result == VK_ERROR_UNKNOWN)
+        return fm_fail(err, FM_UNSUPPORTED,
+                       "%s: the driver's compiler gives up on this shader (VkResult %d)", name,
+                       (int)result);
+    return vulkan_fail(err, result, "%s: pipeline", name);
+}
+
 static fm_status create_compute(fm_pipeline *pipeline, const vulkan *self,
                                 const fm_pipeline_desc *desc, fm_error *err)
 {
@@ -122,7 +133,7 @@ static fm_status create_compute(fm_pipeline *pipeline, const vulkan *self,
     const VkResult result =
         vkCreateComputePipelines(self->device, VK_NULL_HANDLE, 1, &info, NULL, &pipeline->pipeline);
     vkDestroyShaderModule(self->device, module, NULL);
-    return result == VK_SUCCESS ? FM_OK : vulkan_fail(err, result, "%s: pipeline", desc->name);
+    return result == VK_SUCCESS ? FM_OK : creation_failed(err, result, desc->name);
 }
 
 /* The parts of a graphics pipeline that depend on its descriptor; they point at one another. */
@@ -251,7 +262,7 @@ static fm_status create_graphics(fm_pipeline *pipeline, const vulkan *self,
     describe_output(&parts, desc);
     const VkResult result = build_graphics(pipeline, self, &parts, stages);
     if (result != VK_SUCCESS)
-        status = vulkan_fail(err, result, "%s: pipeline", desc->name);
+        status = creation_failed(err, result, desc->name);
 out:
     vkDestroyShaderModule(self->device, vertex, NULL);
     vkDestroyShaderModule(self->device, fragment, NULL);
