@@ -6,6 +6,8 @@
 static void (*build_of(fm_generator generator))(fm_builder *)
 {
     switch (generator) {
+    case FM_GENERATOR_PALACE:
+        return palace_build;
     case FM_GENERATOR_HAIRBALL:
         return hairball_build;
     case FM_GENERATOR_LAYERS:

@@ -22,6 +22,7 @@ static fm_status fill(fm_scene *scene, fm_error *err)
         return fill_mesh(scene, err);
     case FM_GENERATOR_BUNNY_IN_CUBE:
         return bunny_in_cube_generate(scene, err);
+    case FM_GENERATOR_PALACE:
     case FM_GENERATOR_HAIRBALL:
         return procedural_generate(scene, err);
     }

@@ -20,6 +20,7 @@ typedef enum fm_generator {
     FM_GENERATOR_MESH, /* a file */
     /* Stand-ins for scenes that the papers used; generators/ has one file each. */
     FM_GENERATOR_BUNNY_IN_CUBE,
+    FM_GENERATOR_PALACE,
     FM_GENERATOR_HAIRBALL,
 } fm_generator;
 
