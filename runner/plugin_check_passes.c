@@ -297,6 +297,12 @@ static fm_status check_flags(const fm_checked_method *check, const fm_pass *pass
         return fm_fail(err, FM_INVALID, "exclusive: only scene passes can be");
     if (pass->flat_tessellation && pass->kind != FM_PASS_SCENE)
         return fm_fail(err, FM_INVALID, "flat_tessellation: only scene passes can have it");
+    if (check_range(pass->cover, FM_COVER_COUNT, "cover", err) != FM_OK)
+        return FM_INVALID;
+    if (pass->cover != FM_COVER_NONE &&
+        (pass->kind != FM_PASS_SCENE || check->method->feeds != FM_FEED_RASTER))
+        return fm_fail(err, FM_INVALID,
+                       "cover: only scene passes of methods that take the raster feed only");
     if (pass->emits && pass->kind != FM_PASS_PIXELS)
         return fm_fail(err, FM_INVALID, "emits: a pass of kind %s cannot",
                        kind_rules[pass->kind].name);

@@ -26,6 +26,7 @@ typedef struct launch_job {
     fm_scene *scene;
     fm_truth *truth;
     fm_stage *stage;
+    char hull[FM_PATH_MAX_BYTES + 8]; /* beside the truth, for later launches of the scene */
     fm_measurement measurement;
     fm_error error;
     const char *failed_in; /* "plugin": a failure is the plugin's fault */
@@ -362,8 +363,11 @@ static fm_status measure_job(launch_job *job)
     if (status == FM_OK)
         status =
             stage_create(&job->stage, job->device, job->scene, job->truth, job->feed, &job->error);
-    if (status == FM_OK)
+    if (status == FM_OK) {
+        snprintf(job->hull, sizeof job->hull, "%s.hull", text_of(job, "truth"));
+        job->stage->hull_cache = job->hull;
         status = measure(job);
+    }
     if (status == FM_OK)
         status = write_images(job);
     if (status != FM_OK)

@@ -91,6 +91,15 @@ static void assert_check_fails(const fm_method_desc *method, const char *message
         assert_check_fails(&m, MESSAGE);                                                           \
     } while (0)
 
+#define ACCEPTS(CHANGE)                                                                            \
+    do {                                                                                           \
+        fm_method_desc m = sound();                                                                \
+        fm_error err = { .message = "" };                                                          \
+        CHANGE;                                                                                    \
+        if (plugin_check(&m, "test", &err) != FM_OK)                                               \
+            fail_msg("%s", err.message);                                                           \
+    } while (0)
+
 enum { FRAGMENTS, COUNTS, POOL, COLOUR, DEPTH };
 enum { CLEAR, COUNT, PEEL, STORE, SPREAD, RESOLVE };
 #define REST "m needs a name" /* of entries behind the end of a list */
@@ -257,6 +266,11 @@ static void plugin_check_rejects_bad_passes(void **state)
     REFUSES(m.passes[COUNT].clear_word = 1, "clear_word");
     REFUSES(m.passes[RESOLVE].exclusive = true, "exclusive");
     REFUSES(m.passes[RESOLVE].flat_tessellation = true, "flat_tessellation");
+    REFUSES(m.passes[STORE].cover = FM_COVER_COUNT, "cover");
+    REFUSES(m.passes[STORE].cover = FM_COVER_HULL, "cover: only scene passes");
+    REFUSES((m.feeds = FM_FEED_RASTER, m.passes[RESOLVE].cover = FM_COVER_HULL),
+            "cover: only scene passes");
+    ACCEPTS((m.feeds = FM_FEED_RASTER, m.passes[STORE].cover = FM_COVER_HULL));
     REFUSES(m.passes[STORE].flat_option = "layout", "flat_option: needs flat_tessellation");
     REFUSES(m.passes[CLEAR].emits = true, "emits");
     REFUSES(m.passes[STORE].emits = true, "emits: a pass of kind scene cannot");

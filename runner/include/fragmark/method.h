@@ -286,6 +286,16 @@ typedef enum fm_load {
     FM_LOAD_COUNT
 } fm_load;
 
+/* What a scene pass draws instead of the scene: a body that holds it, to learn at little cost
+ * between which depths a pixel's fragments lie. Its colour is 0. Where the near plane cuts the body
+ * its front is missing, and rounding may leave a fragment a few ulp outside. */
+typedef enum fm_cover {
+    FM_COVER_NONE, /* the scene itself */
+    FM_COVER_HULL, /* convex hull of the mesh; of layers the nearest and farthest at each corner */
+    FM_COVER_BOX,  /* bounding box */
+    FM_COVER_COUNT
+} fm_cover;
+
 /* A colour attachment. The shader writes fm_target_NAME. */
 typedef struct fm_target {
     const char *resource;
@@ -326,6 +336,7 @@ typedef struct fm_pass {
     const char *indirect;    /* FM_PASS_INDIRECT */
     uint32_t clear_word;     /* FM_PASS_CLEAR */
     const char *flat_option; /* flat_tessellation holds only where this option is "flat" */
+    fm_cover cover;          /* FM_PASS_SCENE of methods that take the raster feed only */
 } fm_pass;
 
 /* Passes first..last (by name) run again and again: `count` times (constant + per k + per n), or
