@@ -78,19 +78,56 @@ uint64_t formula_image_bytes(const fm_resource *resource, const fm_workload *wor
            formula_samples(resource, workload);
 }
 
+static uint64_t own_bytes(const fm_method_desc *method, const fm_resource *resource,
+                          const fm_workload *workload)
+{
+    const uint64_t elements = formula_elements(method, &resource->extent, workload);
+    return product_of(elements > 0 ? elements : 1, fm_element_bytes(resource->element));
+}
+
+uint64_t formula_buffer_bytes(const fm_method_desc *method, const fm_resource *resource,
+                              const fm_workload *workload)
+{
+    uint64_t bytes = own_bytes(method, resource, workload);
+    for (int i = 0; i < FM_MAX_RESOURCES && method->resources[i].name != NULL; i++) {
+        const fm_resource *other = &method->resources[i];
+        if (other->shares == NULL || strcmp(other->shares, resource->name) != 0)
+            continue;
+        const uint64_t shared = own_bytes(method, other, workload);
+        bytes = shared > bytes ? shared : bytes;
+    }
+    return bytes;
+}
+
+static bool is_runners(const fm_resource *resource)
+{
+    return strncmp(resource->name, "fm_", 3) == 0;
+}
+
 uint64_t formula_bytes(const fm_method_desc *method, const fm_workload *workload)
 {
-    uint64_t bytes = 0;
-    if (method->bytes != NULL)
-        return method->bytes(workload);
+    uint64_t bytes = method->bytes != NULL ? method->bytes(workload) : 0;
     for (int i = 0; i < FM_MAX_RESOURCES && method->resources[i].name != NULL; i++) {
         const fm_resource *resource = &method->resources[i];
-        const uint64_t elements = formula_elements(method, &resource->extent, workload);
-        const uint64_t one =
-            resource->kind == FM_RESOURCE_IMAGE
-                ? formula_image_bytes(resource, workload)
-                : product_of(elements > 0 ? elements : 1, fm_element_bytes(resource->element));
+        if (resource->shares != NULL)
+            continue;
+        uint64_t one = resource->kind == FM_RESOURCE_IMAGE
+                           ? formula_image_bytes(resource, workload)
+                           : formula_buffer_bytes(method, resource, workload);
+        if (method->bytes != NULL && !is_runners(resource)) /* the hook counts all but sharers */
+            one -=
+                resource->kind == FM_RESOURCE_IMAGE ? one : own_bytes(method, resource, workload);
         bytes = formula_sum(bytes, product_of(one, resource->ping_pong ? 2 : 1));
     }
     return bytes;
+}
+
+uint64_t formula_used_bytes(const fm_resource *resource, const fm_workload *workload)
+{
+    const uint64_t pixels = (uint64_t)workload->width_px * workload->height_px;
+    const uint64_t elements = resource->used.per_pixel * pixels +
+                              resource->used.per_fragment * workload->fragments +
+                              resource->used.per_kept * workload->fragments_kept;
+    return resource->kind == FM_RESOURCE_IMAGE ? formula_image_bytes(resource, workload)
+                                               : elements * fm_element_bytes(resource->element);
 }

@@ -155,6 +155,29 @@ static fm_status check_extent(const fm_checked_method *check, const fm_extent *e
     return status;
 }
 
+/* A fixed buffer whose memory another fixed buffer may lie in. */
+static bool can_share(const fm_resource *r)
+{
+    return r->kind == FM_RESOURCE_BUFFER && r->sizing == FM_SIZE_FIXED && !r->ping_pong;
+}
+
+static fm_status check_shares(const fm_checked_method *check, const fm_resource *r, fm_error *err)
+{
+    size_t index;
+    if (r->shares == NULL)
+        return FM_OK;
+    const fm_status status = check_known(&index, r->shares, "shares", &check->resources, err);
+    if (status != FM_OK)
+        return status;
+    const fm_resource *owner = &check->method->resources[index];
+    if (owner == r || owner->shares != NULL || !can_share(r) || !can_share(owner))
+        return fm_fail(err, FM_INVALID,
+                       "shares '%s': both need to be fixed buffers of one copy, and the owner's "
+                       "memory its own",
+                       r->shares);
+    return FM_OK;
+}
+
 static fm_status check_sizing(const fm_checked_method *check, const fm_resource *r, fm_error *err)
 {
     size_t index;
@@ -171,9 +194,10 @@ static fm_status check_sizing(const fm_checked_method *check, const fm_resource 
         return fm_fail(err, FM_INVALID, "sizing that grows: needs overflow, a total");
     if (r->sizing != FM_SIZE_GROW && r->overflow != NULL)
         return fm_fail(err, FM_INVALID, "overflow: only with FM_SIZE_GROW");
-    if (r->overflow == NULL)
-        return FM_OK;
-    return check_known(&index, r->overflow, "overflow", &check->totals, err);
+    if (r->overflow != NULL &&
+        check_known(&index, r->overflow, "overflow", &check->totals, err) != FM_OK)
+        return FM_INVALID;
+    return check_shares(check, r, err);
 }
 
 static fm_status check_buffer(const fm_checked_method *check, const fm_resource *r, fm_error *err)
@@ -199,7 +223,7 @@ static fm_status check_image(const fm_resource *r, fm_error *err)
     if (r->format == FM_FORMAT_NONE)
         return fm_fail(err, FM_INVALID, "format: missing");
     if (memcmp(&r->extent, &none, sizeof none) != 0 || r->sizing != FM_SIZE_FIXED ||
-        r->overflow != NULL || r->element != FM_ELEMENT_UINT)
+        r->overflow != NULL || r->shares != NULL || r->element != FM_ELEMENT_UINT)
         return fm_fail(err, FM_INVALID,
                        "an image has the viewport's size: no element, extent, sizing or overflow");
     if ((r->samples & (r->samples - 1)) != 0 || r->samples > MAX_IMAGE_SAMPLES)

@@ -210,6 +210,13 @@ static void plugin_check_rejects_bad_buffers(void **state)
     REFUSES(m.resources[POOL].overflow = NULL, "needs overflow");
     REFUSES(m.resources[POOL].overflow = "no-rom", "nearest is 'no-room'");
     REFUSES(m.resources[COUNTS].overflow = "no-room", "only with FM_SIZE_GROW");
+    REFUSES(m.resources[COUNTS].shares = "fragmets", "nearest is 'fragments'");
+    REFUSES(m.resources[COUNTS].shares = "counts", "shares 'counts': both");
+    REFUSES(m.resources[COUNTS].shares = "pool", "shares 'pool': both");
+    ACCEPTS(
+        (m.resources[DEPTH + 1] =
+             (fm_resource){ .name = "sharer", .extent = { .constant = 2 }, .shares = "owner" },
+         m.resources[DEPTH + 2] = (fm_resource){ .name = "owner", .extent = { .constant = 1 } }));
 }
 
 static void plugin_check_rejects_bad_images(void **state)

@@ -205,6 +205,9 @@ typedef struct fm_resource {
     fm_extent extent;   /* buffers, in elements */
     fm_sizing sizing;   /* buffers */
     const char *overflow;
+    const char *shares; /* fixed buffers: lies in the memory of this other fixed buffer, which gets
+                           the larger of both sizes; what the one holds is gone once a pass writes
+                           the other, and a clear pass fills all of it */
 
     fm_format format;       /* images */
     uint32_t samples;       /* images; 0 is 1 */
