@@ -370,6 +370,7 @@ static fm_status read_counters(frame_run *frame)
     frame->result->lost = words[STAGE_COUNTER_LOST];
     frame->result->culled = words[STAGE_COUNTER_CULLED];
     frame->result->locked = words[STAGE_COUNTER_LOCKED];
+    frame->result->arrived = words[STAGE_COUNTER_ARRIVED];
     return status;
 }
 

@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "culling.h"
+
 /* Spins until a lock is given up and the fragment counted as lost: bounded, since a hung GPU helps
  * nobody. In Mesa's software a try costs an iteration of the spin and one of each loop in store(),
  * taken or not, out of 65 535 for all: where they end, a store ends half way and nobody knows.
@@ -74,10 +76,12 @@ static void define_all(fm_text *text, const fm_instance *instance, const fm_pass
     shader_define(text, "FM_INTERLOCK", has_interlock(instance, pass));
     shader_define(text, "FM_TARGETS", pass_has_fixed_function(pass));
     shader_define(text, "FM_EMIT_FIRST", emits_first(instance, pass));
+    culling_define(text, pass, instance->desc.settings);
     if (instance->emits_back)
         shader_define(text, "FM_EMITS_BACK", 1);
     if (instance->desc.is_capture) {
         shader_define(text, "FM_CAPTURE", 1);
+        shader_define(text, "FM_IS_STORE", pass->name != NULL && strcmp(pass->name, "store") == 0);
         shader_define(text, "FM_CAPTURE_SLOTS", instance->desc.capture_slots);
     }
     if (instance->desc.wants_primitive && pass_is_scene(pass)) {

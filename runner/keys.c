@@ -5,13 +5,15 @@
 
 #include "settings.h"
 
-_Static_assert(sizeof(fm_generator) == sizeof(unsigned) && sizeof(fm_order) == sizeof(unsigned) &&
-                   sizeof(fm_depths) == sizeof(unsigned) &&
-                   sizeof(fm_colours) == sizeof(unsigned) &&
-                   sizeof(fm_alphas) == sizeof(unsigned) && sizeof(fm_lock) == sizeof(unsigned) &&
-                   sizeof(fm_buffers) == sizeof(unsigned) && sizeof(fm_pool) == sizeof(unsigned) &&
-                   sizeof(fm_full_screen) == sizeof(unsigned),
-               "FM_KEY_ENUM stores an unsigned");
+_Static_assert(
+    sizeof(fm_generator) == sizeof(unsigned) && sizeof(fm_order) == sizeof(unsigned) &&
+        sizeof(fm_depths) == sizeof(unsigned) && sizeof(fm_colours) == sizeof(unsigned) &&
+        sizeof(fm_alphas) == sizeof(unsigned) && sizeof(fm_lock) == sizeof(unsigned) &&
+        sizeof(fm_buffers) == sizeof(unsigned) && sizeof(fm_pool) == sizeof(unsigned) &&
+        sizeof(fm_full_screen) == sizeof(unsigned) && sizeof(fm_culling) == sizeof(unsigned) &&
+        sizeof(fm_cull_range) == sizeof(unsigned) && sizeof(fm_cull_test) == sizeof(unsigned) &&
+        sizeof(fm_cull_memory) == sizeof(unsigned) && sizeof(fm_own_cull) == sizeof(unsigned),
+    "FM_KEY_ENUM stores an unsigned");
 
 #define AT(field) .offset = offsetof(fm_settings, field)
 #define ANY       .scope = FM_SCOPE_SCENE
@@ -21,6 +23,7 @@ _Static_assert(sizeof(fm_generator) == sizeof(unsigned) && sizeof(fm_order) == s
 /* bunny-in-cube's camera and place follow from its pixel density. */
 #define DENSITY BY(1u << FM_GENERATOR_LAYERS | 1u << FM_GENERATOR_BUNNY_IN_CUBE)
 #define MESH    BY(~(1u << FM_GENERATOR_LAYERS | 1u << FM_GENERATOR_BUNNY_IN_CUBE))
+#define QUIET   .scope = FM_SCOPE_CASE, .is_quiet = true
 
 /* clang-format off */
 const fm_key fm_keys[] = {
@@ -84,6 +87,18 @@ const fm_key fm_keys[] = {
       .fallback = "preallocated", .help = "when buffers are allocated" },
     { "full_screen", FM_KEY_ENUM, FM_SCOPE_CASE, AT(full_screen),
       .values = { "compute", "fragment" }, .fallback = "compute", .help = "passes over pixels" },
+    { "culling", FM_KEY_ENUM, QUIET, AT(culling), .values = { "none", "occupancy" },
+      .fallback = "none", .help = "by an occupancy map, before the method's own passes" },
+    { "cull_words", FM_KEY_UINT, QUIET, AT(cull_words), .low = 1, .high = 64, .fallback = "32",
+      .help = "d, words of the map a pixel: 32 d buckets, at least k" },
+    { "cull_range", FM_KEY_ENUM, QUIET, AT(cull_range), .values = { "hull", "aabb", "exact" },
+      .fallback = "hull", .help = "the map's depths: of the hull, the box, the scene" },
+    { "cull_test", FM_KEY_ENUM, QUIET, AT(cull_test), .values = { "early", "shader" },
+      .fallback = "early", .help = "before the shader where a pass can, or in it" },
+    { "cull_memory", FM_KEY_ENUM, QUIET, AT(cull_memory), .values = { "own", "shared" },
+      .fallback = "own", .help = "the map lies in the method's largest fixed buffer" },
+    { "own_cull", FM_KEY_ENUM, QUIET, AT(own_cull), .values = { "on", "off" },
+      .fallback = "on", .help = "the method's own test before its lock" },
     { "launches", FM_KEY_UINT, FM_SCOPE_RUN, AT(launches), .low = 1, .high = 1000,
       .fallback = "5", .help = "processes that measure a case" },
     { "frames", FM_KEY_UINT, FM_SCOPE_RUN, AT(frames), .low = 1, .high = 10000,

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "culling.h"
+
 enum { SLOTS_SPARE = 4, LONG_FRAME_SAMPLES = 2, LOSSY_FRAMES = 4 };
 /* Captured fragments of one band: below every device's bound range. */
 #define BAND_BYTES (64ull << 20)
@@ -284,6 +286,7 @@ static fm_status check_bands(checking *check, fm_instance *instance, fm_error *e
                 check->measurement->lost = result.lost;
             check->measurement->culled = result.culled;
             check->measurement->locked = result.locked;
+            check->measurement->arrived = result.arrived;
         }
         if (status == FM_OK)
             status = check_band(check, &band, err);
@@ -323,6 +326,10 @@ static fm_status check_fragments(fm_measurement *measurement, const fm_measure_d
         status = instance_create(&instance, &capture, err);
     if (status == FM_OK)
         status = check_bands(&check, instance, err);
+    if (status == FM_OK && culling_is_applied(desc->method->method)) {
+        instance_tell_fragments(instance, measurement->arrived); /* pools are sized by these */
+        take_bytes(measurement, instance, desc);
+    }
     measurement->is_checked = status == FM_OK;
     instance_destroy(instance);
     free(check.fragments);

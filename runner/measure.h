@@ -34,7 +34,7 @@ typedef struct fm_measurement {
     /* checked launches only */
     bool is_checked;
     fm_check check;
-    uint64_t culled, locked;
+    uint64_t culled, locked, arrived; /* as of a frame: fm_frame_result */
     double self_max_abs;    /* timed image against its own fragments composited in double; pixels
                                where a tie leaves their order open are left out */
     fm_image_error error;   /* against the picture of the fragments that it was to hand over */

@@ -4,6 +4,8 @@
 #include <string.h>
 #include <xxhash.h>
 
+#include "culling.h"
+
 static const struct {
     uint32_t feed;
     const char *name;
@@ -88,8 +90,12 @@ static void forget_unused_method_keys(fm_settings *settings, const fm_method_des
 {
     if (!plugin_has_k(method))
         settings->k = 0;
-    if (!has_exclusive_pass(method))
+    if (!has_exclusive_pass(method)) {
         settings->lock = FM_LOCK_SPIN;
+        settings->own_cull = FM_OWN_CULL_ON;
+    }
+    if (settings->culling == FM_CULLING_NONE)
+        culling_forget(settings);
     if (!has_pixel_pass(method))
         settings->full_screen = FM_FULL_SCREEN_COMPUTE;
 }
@@ -180,6 +186,13 @@ static void skip_for_k(fm_case *made, const fm_method_desc *method)
                  method->k_max);
 }
 
+static void skip_for_culling(fm_case *made, const fm_method_desc *method)
+{
+    fm_error err;
+    if (culling_check(method, &made->settings, feed_from_name(made->feed), &err) != FM_OK)
+        snprintf(made->skip, sizeof made->skip, "%.500s", err.message);
+}
+
 static void remember_mesh(fm_mesh_memo *memo, const char *path)
 {
     if (strcmp(memo->path, path) == 0)
@@ -202,6 +215,8 @@ static void make_skip(fm_case *made, const fm_plan_point *point)
         skip_for_k(made, entry->plugin->method);
     if (made->skip[0] == '\0')
         skip_for_choice(made, entry->plugin->method);
+    if (made->skip[0] == '\0')
+        skip_for_culling(made, entry->plugin->method);
     if (made->skip[0] == '\0' && point->memo->error.status != FM_OK &&
         settings_has_file(&made->settings))
         snprintf(made->skip, sizeof made->skip, "mesh: %.400s", point->memo->error.message);
@@ -240,6 +255,8 @@ static void make_id(fm_case *made, const fm_plan_point *point)
         if (fm_keys[i].scope != FM_SCOPE_CASE)
             continue;
         settings_text(value, &made->settings, &fm_keys[i]);
+        if (fm_keys[i].is_quiet && strcmp(value, fm_keys[i].fallback) == 0)
+            continue;
         mixed = mix(mix(mixed, fm_keys[i].name), value);
     }
     if (method != NULL)

@@ -16,13 +16,19 @@ enum {
     STAGE_LIST_OFFSETS,   /* uint: where each pixel's begin (compute-pixel) */
     STAGE_OUTPUT,         /* vec4: the image */
     STAGE_OUTPUT_BACK,    /* vec4: what was emitted from the back */
-    STAGE_COUNTERS,       /* uint: lost, culled, locks taken */
+    STAGE_COUNTERS,       /* uint: lost, culled, locks taken, arrived */
     STAGE_CAPTURE,        /* uvec2 (depth bits, colour): emitted fragments of a band of pixels */
     STAGE_CAPTURE_COUNTS, /* uvec2: how many, from the front and from the back */
     STAGE_SLOT_COUNT,
 };
 
-enum { STAGE_COUNTER_LOST, STAGE_COUNTER_CULLED, STAGE_COUNTER_LOCKED, STAGE_COUNTER_COUNT = 4 };
+enum {
+    STAGE_COUNTER_LOST,
+    STAGE_COUNTER_CULLED,
+    STAGE_COUNTER_LOCKED,
+    STAGE_COUNTER_ARRIVED,
+    STAGE_COUNTER_COUNT
+};
 
 /* Invocations of a workgroup, of every compute shader. */
 enum { STAGE_GROUP_SIZE = 64 };

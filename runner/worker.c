@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "culling.h"
 #include "device/device.h"
 #include "measure.h"
 #include "plugin.h"
@@ -19,6 +20,7 @@ typedef struct launch_job {
     json_t *request, *result;
     fm_device *device;
     fm_plugin *method, *floor;
+    fm_method_desc desc; /* the method, with culling if that is asked for */
     fm_settings settings;
     fm_choice choices[FM_MAX_OPTIONS];
     size_t choice_count;
@@ -159,14 +161,17 @@ static bool is_standard_pass(const char *name)
 static void add_frame(json_t *samples, uint32_t frame, const fm_sample *sample,
                       const fm_method_desc *method)
 {
-    uint64_t sum = 0;
+    uint64_t sum = 0, map = 0;
     char metric[96];
     for (size_t i = 0; i < FM_MAX_PASSES && method->passes[i].name != NULL; i++) {
         const char *name = method->passes[i].name;
         snprintf(metric, sizeof metric, "%s%s_ms", is_standard_pass(name) ? "" : "pass.", name);
         add_sample(samples, frame, metric, (double)sample->pass_ns[i] * 1e-6, "ms");
         sum += sample->pass_ns[i];
+        map += culling_is_map_pass(&method->passes[i]) ? sample->pass_ns[i] : 0;
     }
+    if (culling_is_applied(method))
+        add_sample(samples, frame, "culling_ms", (double)map * 1e-6, "ms");
     add_sample(samples, frame, "frame_ms", (double)sum * 1e-6, "ms");
     add_sample(samples, frame, "frame_wall_ms", (double)sample->wall_ns * 1e-6, "ms");
     add_sample(samples, frame, "floor_store_ms", (double)sample->floor_store_ns * 1e-6, "ms");
@@ -177,6 +182,7 @@ static void add_frame(json_t *samples, uint32_t frame, const fm_sample *sample,
 static void add_checked(json_t *metrics, const fm_measurement *m, const fm_truth *truth)
 {
     set_count(metrics, "fragments_stored", m->check.captured);
+    set_count(metrics, "fragments_arrived", m->arrived);
     set_count(metrics, "fragments_culled", m->culled);
     set_count(metrics, "locks_taken", m->locked);
     set_count(metrics, "missing", m->check.missing);
@@ -213,7 +219,7 @@ static void add_metrics(launch_job *job)
     if (m->is_checked)
         add_checked(metrics, m, job->truth);
     for (uint32_t i = 0; i < m->sample_count; i++)
-        add_frame(samples, i, &m->samples[i], job->method->method);
+        add_frame(samples, i, &m->samples[i], &job->desc);
     snprintf(hash, sizeof hash, "%016" PRIx64, image_hash(m->image));
     json_object_set_new(job->result, "image_hash", json_string(hash));
     json_object_set_new(job->result, "metrics", metrics);
@@ -229,10 +235,10 @@ static void add_modelled(launch_job *job)
             json_array_append_new(scene, json_string(job->stage->slots[i].name));
     if (job->stage->vertices != NULL)
         json_array_append_new(scene, json_string("vertices"));
-    for (size_t i = 0; i < FM_MAX_PASSES && job->method->method->passes[i].name != NULL; i++)
-        json_array_append_new(passes, json_string(job->method->method->passes[i].name));
-    for (size_t i = 0; i < FM_MAX_RESOURCES && job->method->method->resources[i].name != NULL; i++)
-        json_array_append_new(buffers, json_string(job->method->method->resources[i].name));
+    for (size_t i = 0; i < FM_MAX_PASSES && job->desc.passes[i].name != NULL; i++)
+        json_array_append_new(passes, json_string(job->desc.passes[i].name));
+    for (size_t i = 0; i < FM_MAX_RESOURCES && job->desc.resources[i].name != NULL; i++)
+        json_array_append_new(buffers, json_string(job->desc.resources[i].name));
     json_object_set_new(
         job->result, "modelled",
         json_pack("{s:o, s:o, s:o}", "scene", scene, "passes", passes, "buffers", buffers));
@@ -264,7 +270,7 @@ static const char *status_word(const launch_job *job, fm_status status)
 static bool is_wrong(launch_job *job)
 {
     const fm_measurement *m = &job->measurement;
-    if (!m->is_checked || (job->method->method->traits & FM_TRAIT_EXACT) == 0)
+    if (!m->is_checked || (job->desc.traits & FM_TRAIT_EXACT) == 0)
         return false;
     if (m->check.missing + m->check.extra + m->check.misordered + m->lost > 0) {
         fm_fail(&job->error, FM_OK,
@@ -325,10 +331,10 @@ static fm_status write_images(launch_job *job)
 static fm_status measure(launch_job *job)
 {
     const char *common = text_of(job, "common");
-    const uint32_t places = measure_places(job->method->method, job->settings.k);
+    const uint32_t places = measure_places(&job->desc, job->settings.k);
     const fm_instance_desc method = {
         .stage = job->stage,
-        .method = job->method->method,
+        .method = &job->desc,
         .folders = { job->method->folder, common },
         .settings = &job->settings,
         .choices = job->choices,
@@ -358,6 +364,9 @@ static fm_status measure_job(launch_job *job)
         status = open_device(job);
     if (status == FM_OK)
         status = open_scene(job);
+    if (status == FM_OK)
+        status =
+            culling_apply(&job->desc, job->method->method, &job->settings, job->feed, &job->error);
     if (status == FM_OK)
         status = truth_open(&job->truth, text_of(job, "truth"), &job->error);
     if (status == FM_OK)

@@ -21,7 +21,8 @@
  *                 #define for each option (see fm_option)
  *   scene pass    defines  void store(uvec2 pixel, float depth, uint colour)
  *                 and, if it is exclusive,  bool wanted(uvec2 pixel, float depth), the cull,
- *                 which is called outside the lock
+ *                 which is called outside the lock. It saves work only: store() is also right for
+ *                 fragments that it would refuse (its answer may be stale; own_cull=off)
  *   pixel pass    (FM_PASS_PIXELS) defines  void NAME(uvec2 pixel), NAME being the pass's name
  *                 with '-' written '_'
  *   other passes  define  void NAME(uint index): a tile, a triangle, or a unit of a total
