@@ -22,6 +22,10 @@ uint64_t formula_buffer_bytes(const fm_method_desc *method, const fm_resource *r
  * own resources (their names begin with fm_) beside it. */
 uint64_t formula_bytes(const fm_method_desc *method, const fm_workload *workload);
 
+bool loop_is_counted(const fm_loop *loop);
+/* Iterations of a loop that is counted. */
+uint32_t formula_count(const fm_loop *loop, const fm_workload *workload);
+
 /* Squares of FM_TILE_PX in the viewport, border tiles counted. */
 uint64_t workload_tiles(const fm_workload *workload);
 /* Index of the total of this name, or -1. */

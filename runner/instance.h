@@ -33,10 +33,11 @@ typedef struct fm_frame_result {
     uint64_t wall_ns;                /* host: with read-backs, allocation and what was done again */
     uint64_t lost;                   /* fragments */
     uint64_t culled, locked;         /* checked build only: by the method's own test; locks taken */
-    uint64_t arrived;   /* checked build only: fragments that pass `store` got to see when it first
-                           ran in the frame; what an occupancy map culled is not among them */
-    uint32_t redos;     /* frames done again because something had to grow */
-    uint64_t redone_ns; /* of all passes of those frames; in no pass_ns */
+    uint64_t arrived; /* checked build only: fragments that pass `store` got to see when it first
+                         ran in the frame; what an occupancy map culled is not among them */
+    uint32_t scene_passes; /* over the scene in the last try */
+    uint32_t redos;        /* frames done again because something had to grow */
+    uint64_t redone_ns;    /* of all passes of those frames; in no pass_ns */
 } fm_frame_result;
 
 /* Of all passes together. */

@@ -174,17 +174,21 @@ static fm_status vertex_source(fm_text *text, const built_pass *built, const fm_
 
 static uint32_t pipeline_count(const fm_instance *instance, const fm_pass *pass)
 {
-    uint32_t count = 1;
+    const fm_loop *innermost = NULL;
+    int narrowest = FM_MAX_PASSES;
     if (pass->state.stencil_reference_step == 0 && pass->state.sample_mask_step == 0)
         return 1;
     for (int i = 0; i < FM_MAX_LOOPS && instance->method->loops[i].first != NULL; i++) {
         const fm_loop *loop = &instance->method->loops[i];
         const int at = (int)(pass - instance->method->passes);
-        if (pass_index(instance->method, loop->first) <= at &&
-            at <= pass_index(instance->method, loop->last))
-            count = loop->count + loop->count_per_k * instance->workload.k +
-                    loop->count_per_n * instance->workload.n;
+        const int first = pass_index(instance->method, loop->first);
+        const int last = pass_index(instance->method, loop->last);
+        if (at < first || last < at || last - first >= narrowest)
+            continue;
+        innermost = loop;
+        narrowest = last - first;
     }
+    const uint32_t count = innermost != NULL ? formula_count(innermost, &instance->workload) : 0;
     return count > 0 ? count : 1;
 }
 

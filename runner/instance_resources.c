@@ -223,16 +223,27 @@ uint64_t instance_bytes_predicted(const fm_instance *instance)
     return formula_sum(formula_bytes(instance->method, &instance->workload), locks);
 }
 
+/* Bytes of a resource's elements that hold something: never more than there are. */
+static uint64_t used_of(const fm_instance *instance, size_t index, const fm_workload *workload)
+{
+    const fm_resource *resource = &instance->method->resources[index];
+    const uint64_t used = formula_used_bytes(resource, workload);
+    const uint64_t there =
+        instance->resources[index][0].length * fm_element_bytes(resource->element);
+    return resource->kind == FM_RESOURCE_BUFFER && used > there ? there : used;
+}
+
 /* What two buffers share counts once. */
-static uint64_t used_with_sharers(const fm_instance *instance, const fm_resource *resource,
+static uint64_t used_with_sharers(const fm_instance *instance, size_t index,
                                   const fm_workload *workload)
 {
-    uint64_t bytes = formula_used_bytes(resource, workload);
+    const char *name = instance->method->resources[index].name;
+    uint64_t bytes = used_of(instance, index, workload);
     for (size_t i = 0; i < instance->resource_count; i++) {
         const fm_resource *other = &instance->method->resources[i];
-        if (other->shares == NULL || strcmp(other->shares, resource->name) != 0)
+        if (other->shares == NULL || strcmp(other->shares, name) != 0)
             continue;
-        const uint64_t shared = formula_used_bytes(other, workload);
+        const uint64_t shared = used_of(instance, i, workload);
         bytes = shared > bytes ? shared : bytes;
     }
     return bytes;
@@ -246,6 +257,6 @@ uint64_t instance_bytes_used(const fm_instance *instance, uint64_t fragments_kep
     workload.fragments_kept = fragments_kept;
     for (size_t i = 0; i < instance->resource_count; i++)
         if (instance->method->resources[i].shares == NULL)
-            bytes += used_with_sharers(instance, &instance->method->resources[i], &workload);
+            bytes += used_with_sharers(instance, i, &workload);
     return bytes;
 }

@@ -76,6 +76,7 @@ static fm_status sample_method(fm_sample *sample, fm_measurement *measurement,
     memcpy(sample->pass_ns, result.pass_ns, sizeof sample->pass_ns);
     sample->wall_ns = result.wall_ns;
     sample->canary_ns = result.canary_ns;
+    measurement->scene_passes = result.scene_passes;
     measurement->lost = result.lost > measurement->lost ? result.lost : measurement->lost;
     return status;
 }

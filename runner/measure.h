@@ -25,6 +25,7 @@ typedef struct fm_measurement {
     bool is_long; /* a frame took over MEASURE_LONG_FRAME_NS: two samples only */
     uint64_t bytes_allocated, bytes_predicted, bytes_used;
     uint64_t lost;
+    uint32_t scene_passes;  /* of the last timed frame */
     uint32_t k_chosen;      /* where the method chooses its k; 0: it does not */
     uint64_t frames_redone; /* because something had to grow; warm-up and check included */
     uint64_t redone_ns;     /* of the passes of the frames that were thrown away for it */

@@ -214,6 +214,7 @@ static void add_metrics(launch_job *job)
     set_count(metrics, "frames_redone", m->frames_redone);
     set_number(metrics, "redone_ms", (double)m->redone_ns * 1e-6);
     set_count(metrics, "frames_lossy", m->frames_lossy);
+    set_count(metrics, "scene_passes", m->scene_passes);
     if (m->k_chosen > 0)
         set_count(metrics, "k_chosen", m->k_chosen);
     if (m->is_checked)

@@ -207,6 +207,11 @@ static void plugin_check_rejects_bad_buffers(void **state)
     REFUSES(m.resources[COUNTS].extent.option = "page", "no such option; nearest is 'pages'");
     REFUSES(m.resources[COUNTS].extent.option = "layout", "no whole number");
     REFUSES(m.resources[COUNTS].extent.option = NULL, "needs extent.option");
+    REFUSES(m.resources[COUNTS].extent.per_pixel_option = 4097, "4096 at most");
+    REFUSES(m.resources[POOL].extent.per_pixel_option = 1, "needs extent.option");
+    REFUSES(m.resources[POOL].extent.k_step = 2, "extent.k_step: needs extent.per_pixel_k");
+    REFUSES(m.options[1].values[1] = "1048577", "no whole number up to 1048576");
+    REFUSES(m.resources[POOL].samples_option = "pages", "a buffer has no");
     REFUSES(m.resources[POOL].overflow = NULL, "needs overflow");
     REFUSES(m.resources[POOL].overflow = "no-rom", "nearest is 'no-room'");
     REFUSES(m.resources[COUNTS].overflow = "no-room", "only with FM_SIZE_GROW");
@@ -300,6 +305,9 @@ static void plugin_check_rejects_bad_attachments(void **state)
     REFUSES(m.resources[COLOUR].format = FM_FORMAT_R32UI, "do not blend");
     REFUSES(m.resources[COLOUR].samples = 1, "samples");
     REFUSES(m.resources[COLOUR].samples_per_k = 4, "4 + 0 k samples, the others have 4 + 4 k");
+    REFUSES(m.resources[COLOUR].samples_option = "pages", "the others have those of 'pages'");
+    REFUSES(m.resources[COLOUR].samples_option = "page", "samples_option 'page': no such option");
+    REFUSES(m.resources[COLOUR].samples_option = "layout", "samples_option 'layout': its value");
     REFUSES(m.passes[SPREAD].targets[0].resource = "colour", "has none");
     REFUSES(m.passes[STORE].state.depth_stencil = "colour", "needs a depth format");
     REFUSES(m.passes[STORE].state.depth_stencil = NULL, "need depth_stencil");
@@ -308,6 +316,17 @@ static void plugin_check_rejects_bad_attachments(void **state)
     REFUSES(m.passes[STORE].state.stencil_pass = FM_STENCIL_OP_COUNT, "stencil_pass");
     REFUSES(m.passes[STORE].state.stencil_reference = 256, "stencil_reference");
     REFUSES(m.resources[DEPTH].format = FM_FORMAT_D32F, "FM_FORMAT_D32F_S8");
+}
+
+/* What steps in a counted loop may do so though the loop around that one ends by a total. */
+static void plugin_check_asks_the_innermost_loop_of_a_step(void **state)
+{
+    (void)state;
+    fm_method_desc m = sound();
+    m.passes[PEEL].state.sample_mask_step = 1;
+    m.loops[1].count_per_k = 0;
+    m.loops[1].count_option = "pages";
+    assert_int_equal(plugin_check(&m, "x.so", NULL), FM_OK);
 }
 
 static void plugin_check_rejects_bad_loops(void **state)
@@ -319,6 +338,11 @@ static void plugin_check_rejects_bad_loops(void **state)
     REFUSES(m.loops[1].first = "peel"; m.loops[1].last = "spread", "overlaps");
     REFUSES(m.loops[1].last = "store", "overlaps");
     REFUSES(m.loops[1].count_per_k = 0, "no end");
+    REFUSES(m.loops[1].count_option = "page", "count_option 'page': no such option");
+    REFUSES(m.loops[1].count_option = "layout", "count_option 'layout': its value");
+    REFUSES(m.passes[STORE].state.sample_mask_step = 1, "pass 'store': need a loop of known count");
+    REFUSES((m.passes[PEEL].state.sample_mask_step = 1, m.loops[1].until_zero = "passed"),
+            "pass 'peel': need a loop of known count");
     REFUSES(m.loops[0].until_zero = "pased", "nearest is 'passed'");
     REFUSES(m.loops[3].first = "clear", "loops[3]");
 }
@@ -337,6 +361,7 @@ int main(void)
         cmocka_unit_test(plugin_check_rejects_bad_passes),
         cmocka_unit_test(plugin_check_rejects_bad_attachments),
         cmocka_unit_test(plugin_check_rejects_bad_loops),
+        cmocka_unit_test(plugin_check_asks_the_innermost_loop_of_a_step),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

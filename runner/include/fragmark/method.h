@@ -150,9 +150,12 @@ typedef struct fm_extent {
     const char *total;
     uint64_t per_option;
     const char *option;
+    uint64_t per_pixel_option; /* times the pixels, for each unit of `option` */
+    uint32_t k_step;           /* per_pixel_k counts ceil(k / k_step); 0 is 1 */
 } fm_extent;
 
-/* How many of a resource's elements hold something in a frame: bytes_used. */
+/* How many of a resource's elements hold something in a frame: bytes_used, never more than there
+ * are. */
 typedef struct fm_used {
     uint64_t per_pixel;
     uint64_t per_fragment; /* F: all fragments of the scene */
@@ -222,6 +225,7 @@ typedef struct fm_resource {
     bool ping_pong; /* two copies, swapped after each iteration of a loop: NAME is written,
                        NAME_previous (a name to use in `reads`) is what the last one wrote */
     fm_used used;
+    const char *samples_option; /* images; added: the number that this option is */
 } fm_resource;
 
 /* A number that the runner reads back. Exactly one source is set. */
@@ -308,7 +312,7 @@ typedef struct fm_target {
     bool no_write; /* colour mask off */
 } fm_target;
 
-/* Fixed-function state. Values that depend on the iteration i of the pass's loop:
+/* Fixed-function state. Values that depend on the iteration i of the pass's innermost loop:
  * stencil_reference + stencil_reference_step * i, and sample_mask << (sample_mask_step * i). */
 typedef struct fm_state {
     const char *depth_stencil; /* the image that is tested */
@@ -343,14 +347,16 @@ typedef struct fm_pass {
     fm_cover cover;          /* FM_PASS_SCENE of methods that take the raster feed only */
 } fm_pass;
 
-/* Passes first..last (by name) run again and again: `count` times (constant + per k + per n), or
- * until a total is zero, which is read after each iteration; with both, whichever comes first;
- * never more than `max`. Ping-pong resources swap after each iteration. */
+/* Passes first..last (by name) run again and again: `count` times (constant + per k + per n + the
+ * number that an option is), or until a total is zero, which is read after each iteration; with
+ * both, whichever comes first; never more than `max`. Ping-pong resources swap after each
+ * iteration. */
 typedef struct fm_loop {
     const char *first, *last;
     uint32_t count, count_per_k, count_per_n;
     const char *until_zero;
     uint32_t max; /* 0 is 65536 */
+    const char *count_option;
 } fm_loop;
 
 /* What is known when a frame starts; what bytes() and after() are told. */
