@@ -6,11 +6,12 @@
 static void (*build_of(fm_generator generator))(fm_builder *)
 {
     switch (generator) {
+    case FM_GENERATOR_PALACE:
+        return palace_build;
     case FM_GENERATOR_HAIRBALL:
         return hairball_build;
     case FM_GENERATOR_LAYERS:
     case FM_GENERATOR_MESH:
-    case FM_GENERATOR_FRAMES:
     case FM_GENERATOR_BUNNY_IN_CUBE:
         break;
     }

@@ -20,6 +20,7 @@ fm_status procedural_stream(const fm_scene *scene, const fm_mesh_sink *sink, fm_
 fm_status bunny_in_cube_generate(fm_scene *scene, fm_error *err);
 
 /* What each makes stands in its file. */
+void palace_build(fm_builder *b);
 void hairball_build(fm_builder *b);
 
 #endif

@@ -12,8 +12,19 @@ uint64_t formula_elements(const fm_method_desc *method, const fm_extent *extent,
 uint32_t formula_layers(const fm_resource *resource, const fm_workload *workload);
 uint32_t formula_samples(const fm_resource *resource, const fm_workload *workload);
 uint64_t formula_image_bytes(const fm_resource *resource, const fm_workload *workload);
-/* All resources, without the runner's spin locks; or what the hook `bytes` says. */
+/* Elements that a frame uses of it, in bytes; images whole. */
+uint64_t formula_used_bytes(const fm_resource *resource, const fm_workload *workload);
+/* Bytes of a buffer that shares no other's memory: of its own extent, or of the largest that shares
+ * its. */
+uint64_t formula_buffer_bytes(const fm_method_desc *method, const fm_resource *resource,
+                              const fm_workload *workload);
+/* All resources, without the runner's spin locks; or what the hook `bytes` says, and the runner's
+ * own resources (their names begin with fm_) beside it. */
 uint64_t formula_bytes(const fm_method_desc *method, const fm_workload *workload);
+
+bool loop_is_counted(const fm_loop *loop);
+/* Iterations of a loop that is counted. */
+uint32_t formula_count(const fm_loop *loop, const fm_workload *workload);
 
 /* Squares of FM_TILE_PX in the viewport, border tiles counted. */
 uint64_t workload_tiles(const fm_workload *workload);

@@ -171,6 +171,11 @@ uint64_t instance_k_chosen(const fm_instance *instance)
     return total >= 0 ? instance->totals[total] : 0;
 }
 
+void instance_tell_fragments(fm_instance *instance, uint64_t fragments)
+{
+    instance->workload.fragments = fragments;
+}
+
 fm_slot *instance_slot(fm_instance *instance, const char *name)
 {
     bool is_previous;

@@ -31,9 +31,13 @@ typedef struct fm_frame_result {
     uint64_t pass_ns[FM_MAX_PASSES]; /* in the descriptor's order, all iterations together */
     uint64_t canary_ns;              /* an empty interval at the frame's start */
     uint64_t wall_ns;                /* host: with read-backs, allocation and what was done again */
-    uint64_t lost, culled, locked;   /* fragments; the last two in the checked build only */
-    uint32_t redos;                  /* frames done again because something had to grow */
-    uint64_t redone_ns;              /* of all passes of those frames; in no pass_ns */
+    uint64_t lost;                   /* fragments */
+    uint64_t culled, locked;         /* checked build only: by the method's own test; locks taken */
+    uint64_t arrived; /* checked build only: fragments that pass `store` got to see when it first
+                         ran in the frame; what an occupancy map culled is not among them */
+    uint32_t scene_passes; /* over the scene in the last try */
+    uint32_t redos;        /* frames done again because something had to grow */
+    uint64_t redone_ns;    /* of all passes of those frames; in no pass_ns */
 } fm_frame_result;
 
 /* Of all passes together. */
@@ -50,6 +54,9 @@ fm_status instance_frame(fm_frame_result *result, fm_instance *instance, const f
 fm_status instance_emit(fm_instance *instance, const fm_band *band, fm_error *err);
 bool instance_can_emit_again(const fm_instance *instance);
 
+/* Fragments that reach the method, for its formulas: fewer than the scene has, if some are culled
+ * before. */
+void instance_tell_fragments(fm_instance *instance, uint64_t fragments);
 /* Bytes as the descriptor's formula says, after a frame has sized everything. */
 uint64_t instance_bytes_predicted(const fm_instance *instance);
 /* Bytes of elements that hold something in a frame that keeps F_k fragments. */

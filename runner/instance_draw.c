@@ -89,7 +89,7 @@ static fm_status draw_pass(fm_instance *instance, size_t index, uint32_t iterati
                      .query = -1 };
     fill_targets(&draw, instance, pass);
     if (pass->kind == FM_PASS_SCENE) {
-        stage_draw(&draw, instance->desc.stage, pass_is_flat(instance, pass));
+        stage_draw(&draw, instance->desc.stage, pass_geometry(instance, pass));
         for (size_t i = 0; i < instance->total_count; i++)
             if (instance->method->totals[i].resource == NULL &&
                 strcmp(instance->method->totals[i].pass, pass->name) == 0)

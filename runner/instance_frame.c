@@ -81,6 +81,7 @@ static fm_status run_pass(frame_run *frame, size_t index, uint32_t iteration)
     fm_status status = record(frame);
     if (status != FM_OK || pass->kind == FM_PASS_HOST)
         return status;
+    frame->result->scene_passes += pass->kind == FM_PASS_SCENE;
     set_params(frame, iteration,
                is_total ? (uint32_t)pass_invocations(instance, pass) : SCENE_PARAM_NONE);
     instance->device->ops->timer_begin(instance->device, (uint32_t)index);
@@ -211,9 +212,8 @@ typedef struct loop_end {
 static loop_end end_of(const fm_instance *instance, const fm_loop *loop)
 {
     return (loop_end){
-        .is_counted = loop->count > 0 || loop->count_per_k > 0 || loop->count_per_n > 0,
-        .count = loop->count + loop->count_per_k * instance->workload.k +
-                 loop->count_per_n * instance->workload.n,
+        .is_counted = loop_is_counted(loop),
+        .count = formula_count(loop, &instance->workload),
         .max = loop->max > 0 ? loop->max : LOOP_MAX_DEFAULT,
         .total = total_index(instance->method, loop->until_zero),
     };
@@ -311,6 +311,7 @@ static fm_status start(frame_run *frame)
     frame->result->redone_ns += frame_passes_ns(frame->result);
     memset(frame->result->pass_ns, 0, sizeof frame->result->pass_ns);
     frame->result->canary_ns = 0;
+    frame->result->scene_passes = 0;
     frame->redo = false;
     frame->params_are_set = false;
     instance->parity = 0;
@@ -370,6 +371,7 @@ static fm_status read_counters(frame_run *frame)
     frame->result->lost = words[STAGE_COUNTER_LOST];
     frame->result->culled = words[STAGE_COUNTER_CULLED];
     frame->result->locked = words[STAGE_COUNTER_LOCKED];
+    frame->result->arrived = words[STAGE_COUNTER_ARRIVED];
     return status;
 }
 

@@ -94,7 +94,7 @@ fm_status pass_source(fm_text *text, const built_pass *built, const fm_instance 
 fm_status passes_create(fm_instance *instance, fm_error *err);
 void passes_destroy(fm_instance *instance);
 const char *option_value(const fm_instance *instance, const fm_option *option);
-/* Whether the pass is drawn with t = 1. */
-bool pass_is_flat(const fm_instance *instance, const fm_pass *pass);
+/* What the scene pass draws. */
+fm_geometry pass_geometry(const fm_instance *instance, const fm_pass *pass);
 
 #endif

@@ -22,12 +22,26 @@ const char *option_value(const fm_instance *instance, const fm_option *option)
     return option->values[0];
 }
 
-bool pass_is_flat(const fm_instance *instance, const fm_pass *pass)
+static bool is_flat(const fm_instance *instance, const fm_pass *pass)
 {
     if (!pass->flat_tessellation || pass->flat_option == NULL)
         return pass->flat_tessellation;
     const char *value = instance->workload.option(&instance->workload, pass->flat_option);
     return value != NULL && strcmp(value, "flat") == 0;
+}
+
+fm_geometry pass_geometry(const fm_instance *instance, const fm_pass *pass)
+{
+    switch (pass->cover) {
+    case FM_COVER_HULL:
+        return FM_GEOMETRY_HULL;
+    case FM_COVER_BOX:
+        return FM_GEOMETRY_BOX;
+    case FM_COVER_NONE:
+    case FM_COVER_COUNT:
+        break;
+    }
+    return is_flat(instance, pass) ? FM_GEOMETRY_FLAT : FM_GEOMETRY_SCENE;
 }
 
 /* ---- what a pass uses ---- */
@@ -81,7 +95,8 @@ static void collect_uses(built_pass *built, fm_instance *instance, const fm_pass
 {
     const bool is_shared = pass_is_scene(pass); /* many invocations a pixel */
     if (pass_is_scene(pass)) {
-        built->use_count = stage_uses(built->uses, instance->desc.stage);
+        built->use_count =
+            stage_uses(built->uses, instance->desc.stage, pass_geometry(instance, pass));
         built->stage_use_count = built->use_count;
         for (size_t i = 0; i < built->use_count; i++)
             built->refs[i].index = -1;
@@ -152,24 +167,28 @@ static fm_status vertex_source(fm_text *text, const built_pass *built, const fm_
     const fm_shader_folders *folders = &instance->desc.folders;
     if (pass_is_scene(pass))
         return stage_vertex_shader(text, built->uses, built->stage_use_count, instance->desc.stage,
-                                   folders, pass_is_flat(instance, pass), err);
+                                   folders, pass_geometry(instance, pass), err);
     shader_begin(text, &instance->device->caps, 0);
     return shader_add_file(text, folders, "common/full_screen_vertex.glsl", err);
 }
 
 static uint32_t pipeline_count(const fm_instance *instance, const fm_pass *pass)
 {
-    uint32_t count = 1;
+    const fm_loop *innermost = NULL;
+    int narrowest = FM_MAX_PASSES;
     if (pass->state.stencil_reference_step == 0 && pass->state.sample_mask_step == 0)
         return 1;
     for (int i = 0; i < FM_MAX_LOOPS && instance->method->loops[i].first != NULL; i++) {
         const fm_loop *loop = &instance->method->loops[i];
         const int at = (int)(pass - instance->method->passes);
-        if (pass_index(instance->method, loop->first) <= at &&
-            at <= pass_index(instance->method, loop->last))
-            count = loop->count + loop->count_per_k * instance->workload.k +
-                    loop->count_per_n * instance->workload.n;
+        const int first = pass_index(instance->method, loop->first);
+        const int last = pass_index(instance->method, loop->last);
+        if (at < first || last < at || last - first >= narrowest)
+            continue;
+        innermost = loop;
+        narrowest = last - first;
     }
+    const uint32_t count = innermost != NULL ? formula_count(innermost, &instance->workload) : 0;
     return count > 0 ? count : 1;
 }
 
@@ -192,7 +211,7 @@ static fm_status create_pipelines(built_pass *built, fm_instance *instance, cons
     if (built->is_drawn) {
         describe_targets(&desc, instance, pass);
         if (pass_is_scene(pass))
-            stage_vertex_layout(&desc, instance->desc.stage);
+            stage_vertex_layout(&desc, instance->desc.stage, pass_geometry(instance, pass));
     }
     built->pipeline_count = pipeline_count(instance, pass);
     built->pipelines = calloc(built->pipeline_count, sizeof(fm_pipeline *));
@@ -215,6 +234,12 @@ static fm_status build_pass(built_pass *built, fm_instance *instance, const fm_p
     *built = (built_pass){ .is_drawn = is_drawn(instance, pass) };
     if (pass->kind == FM_PASS_HOST || pass->kind == FM_PASS_CLEAR)
         return FM_OK;
+    if (pass->cover != FM_COVER_NONE) {
+        const fm_status status =
+            stage_create_cover(instance->desc.stage, pass_geometry(instance, pass), err);
+        if (status != FM_OK)
+            return status;
+    }
     collect_uses(built, instance, pass);
     if (built->is_overfull)
         return fm_fail(err, FM_UNSUPPORTED,

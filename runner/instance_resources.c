@@ -41,11 +41,13 @@ static fm_status create_buffer(fm_instance *instance, fm_slot *slot, const fm_re
 {
     const uint64_t length = elements > 0 ? elements : 1; /* an empty scene still binds something */
     const uint32_t element_bytes = fm_element_bytes(resource->element);
-    if (length > (UINT64_MAX >> 1) / element_bytes)
+    const uint64_t shared = formula_buffer_bytes(instance->method, resource, &instance->workload);
+    if (length > (UINT64_MAX >> 1) / element_bytes || shared > UINT64_MAX >> 1)
         return fm_fail(err, FM_NO_MEMORY, "buffer '%s': its extent is over 2^63 bytes",
                        resource->name);
+    const uint64_t own = length * element_bytes; /* grown, perhaps, beyond the extent */
     const fm_buffer_desc desc = { .name = resource->name,
-                                  .bytes = length * element_bytes,
+                                  .bytes = own > shared ? own : shared,
                                   .owner = FM_OWNER_METHOD,
                                   .is_indirect = true,
                                   .host_reads = resource->extent.constant > 0 };
@@ -74,11 +76,29 @@ static fm_status create_image(fm_instance *instance, fm_slot *slot, const fm_res
     return instance->device->ops->image_create(&slot->image, instance->device, &desc, err);
 }
 
+/* Buffers that lie in the memory of this one. */
+static void link_sharers(fm_instance *instance, size_t index)
+{
+    const fm_slot *owner = &instance->resources[index][0];
+    for (size_t i = 0; i < instance->resource_count; i++) {
+        const fm_resource *resource = &instance->method->resources[i];
+        fm_slot *slot = &instance->resources[i][0];
+        if (resource->shares == NULL || strcmp(resource->shares, owner->name) != 0)
+            continue;
+        const uint64_t elements = resource_elements(instance, i);
+        slot->length = elements > 0 ? elements : 1;
+        slot->buffer = owner->buffer;
+        slot->by_address = owner->by_address;
+    }
+}
+
 static fm_status create_resource(fm_instance *instance, size_t index, fm_error *err)
 {
     const fm_resource *resource = &instance->method->resources[index];
     const int copies = resource->ping_pong ? 2 : 1;
     fm_status status = FM_OK;
+    if (resource->shares != NULL)
+        return FM_OK; /* when its owner is */
     for (int copy = 0; copy < copies && status == FM_OK; copy++) {
         fm_slot *slot = &instance->resources[index][copy];
         slot_destroy(slot, instance->device);
@@ -87,6 +107,7 @@ static fm_status create_resource(fm_instance *instance, size_t index, fm_error *
                 ? create_image(instance, slot, resource, err)
                 : create_buffer(instance, slot, resource, resource_elements(instance, index), err);
     }
+    link_sharers(instance, index);
     return status;
 }
 
@@ -159,9 +180,12 @@ fm_status resources_grow(bool *grew, fm_instance *instance, size_t total, fm_err
 
 void resources_destroy(fm_instance *instance)
 {
-    for (size_t i = 0; i < instance->resource_count; i++)
+    for (size_t i = 0; i < instance->resource_count; i++) {
+        if (instance->method->resources[i].shares != NULL)
+            instance->resources[i][0].buffer = NULL;
         for (int copy = 0; copy < 2; copy++)
             slot_destroy(&instance->resources[i][copy], instance->device);
+    }
     slot_destroy(&instance->locks, instance->device);
 }
 
@@ -199,18 +223,40 @@ uint64_t instance_bytes_predicted(const fm_instance *instance)
     return formula_sum(formula_bytes(instance->method, &instance->workload), locks);
 }
 
+/* Bytes of a resource's elements that hold something: never more than there are. */
+static uint64_t used_of(const fm_instance *instance, size_t index, const fm_workload *workload)
+{
+    const fm_resource *resource = &instance->method->resources[index];
+    const uint64_t used = formula_used_bytes(resource, workload);
+    const uint64_t there =
+        instance->resources[index][0].length * fm_element_bytes(resource->element);
+    return resource->kind == FM_RESOURCE_BUFFER && used > there ? there : used;
+}
+
+/* What two buffers share counts once. */
+static uint64_t used_with_sharers(const fm_instance *instance, size_t index,
+                                  const fm_workload *workload)
+{
+    const char *name = instance->method->resources[index].name;
+    uint64_t bytes = used_of(instance, index, workload);
+    for (size_t i = 0; i < instance->resource_count; i++) {
+        const fm_resource *other = &instance->method->resources[i];
+        if (other->shares == NULL || strcmp(other->shares, name) != 0)
+            continue;
+        const uint64_t shared = used_of(instance, i, workload);
+        bytes = shared > bytes ? shared : bytes;
+    }
+    return bytes;
+}
+
 uint64_t instance_bytes_used(const fm_instance *instance, uint64_t fragments_kept)
 {
-    const uint64_t pixels = (uint64_t)instance->workload.width_px * instance->workload.height_px;
+    fm_workload workload = instance->workload;
+    const uint64_t pixels = (uint64_t)workload.width_px * workload.height_px;
     uint64_t bytes = instance->is_spin_locked ? pixels * 4 : 0;
-    for (size_t i = 0; i < instance->resource_count; i++) {
-        const fm_resource *resource = &instance->method->resources[i];
-        const uint64_t elements = resource->used.per_pixel * pixels +
-                                  resource->used.per_fragment * instance->workload.fragments +
-                                  resource->used.per_kept * fragments_kept;
-        bytes += resource->kind == FM_RESOURCE_IMAGE
-                     ? formula_image_bytes(resource, &instance->workload)
-                     : elements * fm_element_bytes(resource->element);
-    }
+    workload.fragments_kept = fragments_kept;
+    for (size_t i = 0; i < instance->resource_count; i++)
+        if (instance->method->resources[i].shares == NULL)
+            bytes += used_with_sharers(instance, i, &workload);
     return bytes;
 }

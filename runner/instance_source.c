@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "culling.h"
+
 /* Spins until a lock is given up and the fragment counted as lost: bounded, since a hung GPU helps
  * nobody. In Mesa's software a try costs an iteration of the spin and one of each loop in store(),
  * taken or not, out of 65 535 for all: where they end, a store ends half way and nobody knows.
@@ -66,7 +68,7 @@ static bool emits_first(const fm_instance *instance, const fm_pass *pass)
 static void define_all(fm_text *text, const fm_instance *instance, const fm_pass *pass)
 {
     const fm_device_caps *caps = &instance->device->caps;
-    stage_define(text, instance->desc.stage, pass_is_flat(instance, pass));
+    stage_define(text, instance->desc.stage, pass_geometry(instance, pass));
     shader_define(text, "K", instance->workload.k > 0 ? instance->workload.k : 1);
     shader_define(text, "N", instance->workload.n > 0 ? instance->workload.n : 1);
     shader_define(text, "FM_SPIN_MAX", caps->loop_limit > 0 ? SPIN_MAX_SOFTWARE : SPIN_MAX);
@@ -74,15 +76,17 @@ static void define_all(fm_text *text, const fm_instance *instance, const fm_pass
     shader_define(text, "FM_INTERLOCK", has_interlock(instance, pass));
     shader_define(text, "FM_TARGETS", pass_has_fixed_function(pass));
     shader_define(text, "FM_EMIT_FIRST", emits_first(instance, pass));
+    culling_define(text, pass, instance->desc.settings);
     if (instance->emits_back)
         shader_define(text, "FM_EMITS_BACK", 1);
     if (instance->desc.is_capture) {
         shader_define(text, "FM_CAPTURE", 1);
+        shader_define(text, "FM_IS_STORE", pass->name != NULL && strcmp(pass->name, "store") == 0);
         shader_define(text, "FM_CAPTURE_SLOTS", instance->desc.capture_slots);
     }
     if (instance->desc.wants_primitive && pass_is_scene(pass)) {
         fm_draw draw = { 0 };
-        stage_draw(&draw, instance->desc.stage, pass_is_flat(instance, pass));
+        stage_draw(&draw, instance->desc.stage, pass_geometry(instance, pass));
         shader_define(text, "FM_PRIMITIVE", 1);
         shader_define(text, "FM_INSTANCE_TRIANGLES", draw.vertex_count / 3);
         text_add(text, "uint fm_primitive;\n");
@@ -159,7 +163,8 @@ static fm_status add_body(fm_text *text, const fm_instance *instance, const fm_p
 {
     const fm_shader_folders *folders = &instance->desc.folders;
     fm_status status = shader_add_file(text, folders, "common/prelude.glsl", err);
-    if (status == FM_OK && pass_is_scene(pass) && scene_is_layers(instance->desc.stage->scene))
+    if (status == FM_OK && pass_is_scene(pass) && pass->cover == FM_COVER_NONE &&
+        scene_is_layers(instance->desc.stage->scene))
         status = shader_add_file(text, folders, "common/layers.glsl", err);
     if (status == FM_OK && pass->emits)
         status = shader_add_file(text, folders, "common/emit.glsl", err);

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "culling.h"
+
 enum { SLOTS_SPARE = 4, LONG_FRAME_SAMPLES = 2, LOSSY_FRAMES = 4 };
 /* Captured fragments of one band: below every device's bound range. */
 #define BAND_BYTES (64ull << 20)
@@ -74,6 +76,7 @@ static fm_status sample_method(fm_sample *sample, fm_measurement *measurement,
     memcpy(sample->pass_ns, result.pass_ns, sizeof sample->pass_ns);
     sample->wall_ns = result.wall_ns;
     sample->canary_ns = result.canary_ns;
+    measurement->scene_passes = result.scene_passes;
     measurement->lost = result.lost > measurement->lost ? result.lost : measurement->lost;
     return status;
 }
@@ -284,6 +287,7 @@ static fm_status check_bands(checking *check, fm_instance *instance, fm_error *e
                 check->measurement->lost = result.lost;
             check->measurement->culled = result.culled;
             check->measurement->locked = result.locked;
+            check->measurement->arrived = result.arrived;
         }
         if (status == FM_OK)
             status = check_band(check, &band, err);
@@ -323,6 +327,10 @@ static fm_status check_fragments(fm_measurement *measurement, const fm_measure_d
         status = instance_create(&instance, &capture, err);
     if (status == FM_OK)
         status = check_bands(&check, instance, err);
+    if (status == FM_OK && culling_is_applied(desc->method->method)) {
+        instance_tell_fragments(instance, measurement->arrived); /* pools are sized by these */
+        take_bytes(measurement, instance, desc);
+    }
     measurement->is_checked = status == FM_OK;
     instance_destroy(instance);
     free(check.fragments);

@@ -25,6 +25,7 @@ typedef struct fm_measurement {
     bool is_long; /* a frame took over MEASURE_LONG_FRAME_NS: two samples only */
     uint64_t bytes_allocated, bytes_predicted, bytes_used;
     uint64_t lost;
+    uint32_t scene_passes;  /* of the last timed frame */
     uint32_t k_chosen;      /* where the method chooses its k; 0: it does not */
     uint64_t frames_redone; /* because something had to grow; warm-up and check included */
     uint64_t redone_ns;     /* of the passes of the frames that were thrown away for it */
@@ -34,7 +35,7 @@ typedef struct fm_measurement {
     /* checked launches only */
     bool is_checked;
     fm_check check;
-    uint64_t culled, locked;
+    uint64_t culled, locked, arrived; /* as of a frame: fm_frame_result */
     double self_max_abs;    /* timed image against its own fragments composited in double; pixels
                                where a tie leaves their order open are left out */
     fm_image_error error;   /* against the picture of the fragments that it was to hand over */

@@ -4,7 +4,7 @@
 #include <string.h>
 #include <xxhash.h>
 
-#include "device/device.h"
+#include "culling.h"
 
 static const struct {
     uint32_t feed;
@@ -90,12 +90,14 @@ static void forget_unused_method_keys(fm_settings *settings, const fm_method_des
 {
     if (!plugin_has_k(method))
         settings->k = 0;
-    if (!has_exclusive_pass(method))
+    if (!has_exclusive_pass(method)) {
         settings->lock = FM_LOCK_SPIN;
+        settings->own_cull = FM_OWN_CULL_ON;
+    }
+    if (settings->culling == FM_CULLING_NONE)
+        culling_forget(settings);
     if (!has_pixel_pass(method))
         settings->full_screen = FM_FULL_SCREEN_COMPUTE;
-    if (method->technique == NULL)
-        memset(settings->model, 0, sizeof settings->model);
 }
 
 static fm_status make_settings(fm_settings *settings, const fm_plan_point *point, fm_error *err)
@@ -159,21 +161,6 @@ static void skip_for_feed(fm_case *made, const fm_method_desc *method)
     skip_list(made->skip, sizeof made->skip, start, taken, count);
 }
 
-/* Frames are for their own device and from their own generator, fragments for and from all others.
- */
-static void skip_for_place(fm_case *made)
-{
-    const uint32_t feed = feed_from_name(made->feed);
-    const bool has_frames = made->settings.generator == FM_GENERATOR_FRAMES;
-    const fm_device_ops *ops = device_find(made->device);
-    if (ops != NULL && (device_feeds(ops) & feed) == 0)
-        snprintf(made->skip, sizeof made->skip, "feed '%s': device %s does not take it", made->feed,
-                 ops->name);
-    else if (has_frames != (feed == FM_FEED_FRAMES))
-        snprintf(made->skip, sizeof made->skip, "feed '%s': the scene is made of %s", made->feed,
-                 has_frames ? "frames" : "fragments");
-}
-
 static void skip_for_choice(fm_case *made, const fm_method_desc *method)
 {
     for (size_t i = 0; i < made->choice_count && made->skip[0] == '\0'; i++) {
@@ -199,6 +186,13 @@ static void skip_for_k(fm_case *made, const fm_method_desc *method)
                  method->k_max);
 }
 
+static void skip_for_culling(fm_case *made, const fm_method_desc *method)
+{
+    fm_error err;
+    if (culling_check(method, &made->settings, feed_from_name(made->feed), &err) != FM_OK)
+        snprintf(made->skip, sizeof made->skip, "%.500s", err.message);
+}
+
 static void remember_mesh(fm_mesh_memo *memo, const char *path)
 {
     if (strcmp(memo->path, path) == 0)
@@ -218,11 +212,11 @@ static void make_skip(fm_case *made, const fm_plan_point *point)
     }
     skip_for_feed(made, entry->plugin->method);
     if (made->skip[0] == '\0')
-        skip_for_place(made);
-    if (made->skip[0] == '\0')
         skip_for_k(made, entry->plugin->method);
     if (made->skip[0] == '\0')
         skip_for_choice(made, entry->plugin->method);
+    if (made->skip[0] == '\0')
+        skip_for_culling(made, entry->plugin->method);
     if (made->skip[0] == '\0' && point->memo->error.status != FM_OK &&
         settings_has_file(&made->settings))
         snprintf(made->skip, sizeof made->skip, "mesh: %.400s", point->memo->error.message);
@@ -261,6 +255,8 @@ static void make_id(fm_case *made, const fm_plan_point *point)
         if (fm_keys[i].scope != FM_SCOPE_CASE)
             continue;
         settings_text(value, &made->settings, &fm_keys[i]);
+        if (fm_keys[i].is_quiet && strcmp(value, fm_keys[i].fallback) == 0)
+            continue;
         mixed = mix(mix(mixed, fm_keys[i].name), value);
     }
     if (method != NULL)

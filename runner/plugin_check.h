@@ -28,8 +28,6 @@ fm_status check_resources(const fm_checked_method *check, fm_error *err);
 fm_status check_totals(const fm_checked_method *check, fm_error *err);
 fm_status check_passes(const fm_checked_method *check, fm_error *err);
 fm_status check_loops(const fm_checked_method *check, fm_error *err);
-/* Instead of resources, totals, passes and loops. */
-fm_status check_technique(const fm_checked_method *check, fm_error *err);
 
 /* Length of a list that ends at the first NULL name; the i-th name lies i * stride_bytes behind
  * first. FM_INVALID: a name stands behind the end, or one is empty or twice there. */
@@ -38,6 +36,9 @@ fm_status check_list(size_t *count, const char *const *first, size_t stride_byte
 /* Index of word in names; FM_INVALID: none, with the nearest. */
 fm_status check_known(size_t *index, const char *word, const char *field,
                       const fm_known_names *names, fm_error *err);
+/* FM_INVALID unless it is an option of whole numbers. */
+fm_status check_counting_option(const fm_checked_method *check, const char *name, const char *field,
+                                fm_error *err);
 fm_status check_range(unsigned value, unsigned count, const char *field, fm_error *err);
 /* [a-z] first, then [a-z0-9] and the characters of `others`. */
 bool check_is_word(const char *name, const char *others);

@@ -7,7 +7,12 @@
 #include "settings.h"
 #include "text.h"
 
-enum { DEFINE_MAX_BYTES = 64, MAX_IMAGE_LAYERS = 2048, MAX_IMAGE_SAMPLES = 16 };
+enum {
+    DEFINE_MAX_BYTES = 64,
+    MAX_IMAGE_LAYERS = 2048,
+    MAX_IMAGE_SAMPLES = 16,
+    MAX_OPTION_NUMBER = 1 << 20
+};
 static const uint64_t max_constant = UINT64_C(1) << 40;
 /* Elements of a pixel, tile, triangle, ...: what multiplies a count of the scene. */
 static const uint64_t max_factor = UINT64_C(1) << 12;
@@ -91,20 +96,19 @@ fm_status check_options(const fm_checked_method *check, fm_error *err)
     return FM_OK;
 }
 
-/* The option that per_option multiplies by: whole numbers only. */
-static fm_status check_counting_option(const fm_checked_method *check, const char *name,
-                                       fm_error *err)
+fm_status check_counting_option(const fm_checked_method *check, const char *name, const char *field,
+                                fm_error *err)
 {
     size_t index;
     uint64_t number;
-    const fm_status status = check_known(&index, name, "extent.option", &check->options, err);
+    const fm_status status = check_known(&index, name, field, &check->options, err);
     if (status != FM_OK)
         return status;
     const fm_option *option = &check->method->options[index];
     for (size_t i = 0; i < FM_MAX_OPTION_VALUES && option->values[i] != NULL; i++)
-        if (!text_to_u64(&number, option->values[i]))
-            return fm_fail(err, FM_INVALID, "extent.option '%s': its value '%s' is no whole number",
-                           name, option->values[i]);
+        if (!text_to_u64(&number, option->values[i]) || number > MAX_OPTION_NUMBER)
+            return fm_fail(err, FM_INVALID, "%s '%s': its value '%s' is no whole number up to %d",
+                           field, name, option->values[i], MAX_OPTION_NUMBER);
     return FM_OK;
 }
 
@@ -130,8 +134,9 @@ static fm_status check_factors(const uint64_t *factors, size_t count, const char
 
 static fm_status check_extent(const fm_checked_method *check, const fm_extent *e, fm_error *err)
 {
-    const uint64_t factors[] = { e->per_pixel,    e->per_pixel_k, e->per_pixel_n, e->per_tile,
-                                 e->per_triangle, e->per_total,   e->per_option };
+    const uint64_t factors[] = { e->per_pixel,  e->per_pixel_k,     e->per_pixel_n,
+                                 e->per_tile,   e->per_triangle,    e->per_total,
+                                 e->per_option, e->per_pixel_option };
     const size_t count = sizeof factors / sizeof factors[0];
     bool is_zero = e->constant == 0;
     for (size_t i = 0; i < count; i++)
@@ -145,14 +150,40 @@ static fm_status check_extent(const fm_checked_method *check, const fm_extent *e
     if (status == FM_OK)
         status = check_term(e->per_total, e->total, "per_total", "total", err);
     if (status == FM_OK)
-        status = check_term(e->per_option, e->option, "per_option", "option", err);
+        status =
+            check_term(e->per_option + e->per_pixel_option, e->option, "per_option", "option", err);
+    if (status == FM_OK && e->k_step > 0 && e->per_pixel_k == 0)
+        status = fm_fail(err, FM_INVALID, "extent.k_step: needs extent.per_pixel_k");
     if (status == FM_OK && e->total != NULL) {
         size_t index;
         status = check_known(&index, e->total, "extent.total", &check->totals, err);
     }
     if (status == FM_OK && e->option != NULL)
-        status = check_counting_option(check, e->option, err);
+        status = check_counting_option(check, e->option, "extent.option", err);
     return status;
+}
+
+/* A fixed buffer whose memory another fixed buffer may lie in. */
+static bool can_share(const fm_resource *r)
+{
+    return r->kind == FM_RESOURCE_BUFFER && r->sizing == FM_SIZE_FIXED && !r->ping_pong;
+}
+
+static fm_status check_shares(const fm_checked_method *check, const fm_resource *r, fm_error *err)
+{
+    size_t index;
+    if (r->shares == NULL)
+        return FM_OK;
+    const fm_status status = check_known(&index, r->shares, "shares", &check->resources, err);
+    if (status != FM_OK)
+        return status;
+    const fm_resource *owner = &check->method->resources[index];
+    if (owner == r || owner->shares != NULL || !can_share(r) || !can_share(owner))
+        return fm_fail(err, FM_INVALID,
+                       "shares '%s': both need to be fixed buffers of one copy, and the owner's "
+                       "memory its own",
+                       r->shares);
+    return FM_OK;
 }
 
 static fm_status check_sizing(const fm_checked_method *check, const fm_resource *r, fm_error *err)
@@ -171,9 +202,10 @@ static fm_status check_sizing(const fm_checked_method *check, const fm_resource 
         return fm_fail(err, FM_INVALID, "sizing that grows: needs overflow, a total");
     if (r->sizing != FM_SIZE_GROW && r->overflow != NULL)
         return fm_fail(err, FM_INVALID, "overflow: only with FM_SIZE_GROW");
-    if (r->overflow == NULL)
-        return FM_OK;
-    return check_known(&index, r->overflow, "overflow", &check->totals, err);
+    if (r->overflow != NULL &&
+        check_known(&index, r->overflow, "overflow", &check->totals, err) != FM_OK)
+        return FM_INVALID;
+    return check_shares(check, r, err);
 }
 
 static fm_status check_buffer(const fm_checked_method *check, const fm_resource *r, fm_error *err)
@@ -182,7 +214,7 @@ static fm_status check_buffer(const fm_checked_method *check, const fm_resource 
     if (status != FM_OK)
         return status;
     if (r->format != FM_FORMAT_NONE || r->samples != 0 || r->samples_per_k != 0 || r->layers != 0 ||
-        r->layers_per_k != 0)
+        r->layers_per_k != 0 || r->samples_option != NULL)
         return fm_fail(err, FM_INVALID, "a buffer has no format, samples or layers");
     if (r->element == FM_ELEMENT_UINT64 && !(check->method->features & FM_FEATURE_INT64_ATOMICS))
         return fm_fail(err, FM_INVALID, "element: 64-bit needs FM_FEATURE_INT64_ATOMICS");
@@ -190,7 +222,7 @@ static fm_status check_buffer(const fm_checked_method *check, const fm_resource 
     return status == FM_OK ? check_sizing(check, r, err) : status;
 }
 
-static fm_status check_image(const fm_resource *r, fm_error *err)
+static fm_status check_image(const fm_checked_method *check, const fm_resource *r, fm_error *err)
 {
     const fm_extent none = { 0 };
     const fm_status status = check_range(r->format, FM_FORMAT_COUNT, "format", err);
@@ -199,7 +231,7 @@ static fm_status check_image(const fm_resource *r, fm_error *err)
     if (r->format == FM_FORMAT_NONE)
         return fm_fail(err, FM_INVALID, "format: missing");
     if (memcmp(&r->extent, &none, sizeof none) != 0 || r->sizing != FM_SIZE_FIXED ||
-        r->overflow != NULL || r->element != FM_ELEMENT_UINT)
+        r->overflow != NULL || r->shares != NULL || r->element != FM_ELEMENT_UINT)
         return fm_fail(err, FM_INVALID,
                        "an image has the viewport's size: no element, extent, sizing or overflow");
     if ((r->samples & (r->samples - 1)) != 0 || r->samples > MAX_IMAGE_SAMPLES)
@@ -214,6 +246,8 @@ static fm_status check_image(const fm_resource *r, fm_error *err)
         return fm_fail(err, FM_INVALID, "clear_depth: from 0 to 1");
     if (r->clear_stencil > UINT8_MAX)
         return fm_fail(err, FM_INVALID, "clear_stencil: 255 at most");
+    if (r->samples_option != NULL)
+        return check_counting_option(check, r->samples_option, "samples_option", err);
     return FM_OK;
 }
 
@@ -246,7 +280,7 @@ static fm_status check_resource(const fm_checked_method *check, const fm_resourc
         status = check_factors(used, sizeof used / sizeof used[0], "used", err);
     if (status != FM_OK)
         return status;
-    return r->kind == FM_RESOURCE_BUFFER ? check_buffer(check, r, err) : check_image(r, err);
+    return r->kind == FM_RESOURCE_BUFFER ? check_buffer(check, r, err) : check_image(check, r, err);
 }
 
 fm_status check_resources(const fm_checked_method *check, fm_error *err)

@@ -113,7 +113,8 @@ static fm_status check_written(const fm_checked_method *check, const fm_pass *pa
     const fm_resource *r = find_resource(check, name);
     if (r == NULL || r->kind != FM_RESOURCE_IMAGE || pass->kind == FM_PASS_CLEAR)
         return FM_OK;
-    if (check_is_depth_format(r->format) || r->samples > 1 || r->samples_per_k > 0)
+    if (check_is_depth_format(r->format) || r->samples > 1 || r->samples_per_k > 0 ||
+        r->samples_option != NULL)
         return fm_fail(err, FM_INVALID,
                        "writes '%s': shaders store into colour images of one sample only", name);
     return FM_OK;
@@ -169,27 +170,33 @@ static bool is_integer_format(fm_format format)
     return format == FM_FORMAT_R32UI || format == FM_FORMAT_RG32UI || format == FM_FORMAT_RGBA32UI;
 }
 
-/* Samples of an image: constant + per_k * k. */
+/* Samples of an image: constant + per_k * k + the option's number. */
 typedef struct sample_formula {
-    uint32_t constant, per_k; /* both 0: none yet */
+    uint32_t constant, per_k;
+    const char *option; /* all zero: none yet */
 } sample_formula;
 
 static sample_formula samples_of(const fm_resource *image)
 {
-    const bool is_default = image->samples == 0 && image->samples_per_k == 0;
-    return (sample_formula){ is_default ? 1 : image->samples, image->samples_per_k };
+    const char *option = image->samples_option != NULL ? image->samples_option : "";
+    const bool is_default = image->samples == 0 && image->samples_per_k == 0 && *option == '\0';
+    return (sample_formula){ is_default ? 1 : image->samples, image->samples_per_k, option };
 }
 
 /* All attachments of a pass have the same samples, whatever k is. */
 static fm_status check_samples(sample_formula *samples, const fm_resource *image, fm_error *err)
 {
     const sample_formula own = samples_of(image);
-    const bool is_first = samples->constant == 0 && samples->per_k == 0;
+    const bool is_first = samples->option == NULL;
     if (!is_first && (samples->constant != own.constant || samples->per_k != own.per_k))
         return fm_fail(err, FM_INVALID,
                        "target '%s': %" PRIu32 " + %" PRIu32 " k samples, the others have %" PRIu32
                        " + %" PRIu32 " k",
                        image->name, own.constant, own.per_k, samples->constant, samples->per_k);
+    if (!is_first && strcmp(samples->option, own.option) != 0)
+        return fm_fail(err, FM_INVALID,
+                       "target '%s': samples of option '%s', the others have those of '%s'",
+                       image->name, own.option, samples->option);
     *samples = own;
     return FM_OK;
 }
@@ -297,6 +304,12 @@ static fm_status check_flags(const fm_checked_method *check, const fm_pass *pass
         return fm_fail(err, FM_INVALID, "exclusive: only scene passes can be");
     if (pass->flat_tessellation && pass->kind != FM_PASS_SCENE)
         return fm_fail(err, FM_INVALID, "flat_tessellation: only scene passes can have it");
+    if (check_range(pass->cover, FM_COVER_COUNT, "cover", err) != FM_OK)
+        return FM_INVALID;
+    if (pass->cover != FM_COVER_NONE &&
+        (pass->kind != FM_PASS_SCENE || check->method->feeds != FM_FEED_RASTER))
+        return fm_fail(err, FM_INVALID,
+                       "cover: only scene passes of methods that take the raster feed only");
     if (pass->emits && pass->kind != FM_PASS_PIXELS)
         return fm_fail(err, FM_INVALID, "emits: a pass of kind %s cannot",
                        kind_rules[pass->kind].name);

@@ -415,9 +415,11 @@ static void count_outcomes(fm_run_result *result, const run_state *run)
 /* What only running launches need. Folders that hold more stay. */
 static void remove_truths(const run_state *run)
 {
+    static const char *const suffixes[] = { ".truth", ".truth.hull" };
     char path[FM_PATH_MAX_BYTES];
-    for (size_t i = 0; i < run->truths.count; i++)
-        if (path_of(path, run, "truth", run->truths.jobs[i].name, ".truth", NULL) == FM_OK)
+    for (size_t i = 0; i < 2 * run->truths.count; i++)
+        if (path_of(path, run, "truth", run->truths.jobs[i / 2].name, suffixes[i % 2], NULL) ==
+            FM_OK)
             unlink(path);
     if (path_of(path, run, "truth", "", "", NULL) == FM_OK)
         rmdir(path);

@@ -22,12 +22,11 @@ static fm_status fill(fm_scene *scene, fm_error *err)
         return fill_mesh(scene, err);
     case FM_GENERATOR_BUNNY_IN_CUBE:
         return bunny_in_cube_generate(scene, err);
+    case FM_GENERATOR_PALACE:
     case FM_GENERATOR_HAIRBALL:
         return procedural_generate(scene, err);
-    case FM_GENERATOR_FRAMES:
-        break; /* no scene of fragments: frames.h */
     }
-    return fm_fail(err, FM_INVALID, "generator frames: its scenes are for feed frames");
+    return fm_fail(err, FM_INVALID, "a scene without a generator");
 }
 
 fm_status scene_create(fm_scene **scene, const fm_settings *settings, fm_error *err)

@@ -20,8 +20,8 @@ typedef enum fm_generator {
     FM_GENERATOR_MESH, /* a file */
     /* Stand-ins for scenes that the papers used; generators/ has one file each. */
     FM_GENERATOR_BUNNY_IN_CUBE,
+    FM_GENERATOR_PALACE,
     FM_GENERATOR_HAIRBALL,
-    FM_GENERATOR_FRAMES, /* a sequence of draw calls, for the simulated GPU */
 } fm_generator;
 
 typedef enum fm_order {
@@ -59,6 +59,17 @@ typedef enum fm_buffers { FM_BUFFERS_AUTO, FM_BUFFERS_BOUND, FM_BUFFERS_ADDRESS 
 typedef enum fm_pool { FM_POOL_PREALLOCATED, FM_POOL_PER_FRAME } fm_pool;
 typedef enum fm_full_screen { FM_FULL_SCREEN_COMPUTE, FM_FULL_SCREEN_FRAGMENT } fm_full_screen;
 
+/* Occupancy-map culling: culling.h. */
+typedef enum fm_culling { FM_CULLING_NONE, FM_CULLING_OCCUPANCY } fm_culling;
+typedef enum fm_cull_range {
+    FM_CULL_RANGE_HULL,
+    FM_CULL_RANGE_AABB,
+    FM_CULL_RANGE_EXACT,
+} fm_cull_range;
+typedef enum fm_cull_test { FM_CULL_TEST_EARLY, FM_CULL_TEST_SHADER } fm_cull_test;
+typedef enum fm_cull_memory { FM_CULL_MEMORY_OWN, FM_CULL_MEMORY_SHARED } fm_cull_memory;
+typedef enum fm_own_cull { FM_OWN_CULL_ON, FM_OWN_CULL_OFF } fm_own_cull;
+
 enum { FM_TEXT_MAX = 256, FM_PATH_MAX_BYTES = 1024 };
 #define FM_NOT_GIVEN UINT32_MAX
 
@@ -89,23 +100,18 @@ typedef struct fm_settings {
     uint32_t instances;
     double instance_offset[3]; /* in box sizes */
 
-    /* frames: what generators/frame_sequences.h makes of them */
-    uint32_t sequence_frames;
-    uint32_t backgrounds, sprites, triangles;
-    double object_px, depth_complexity, front_to_back;
-    double camera_px, camera_moves, moving;
-    double hud, hud_opaque, hidden_churn, translucent;
-    uint32_t fragment_instructions, vertex_instructions;
-    double texture_bytes;
-
     /* method and run */
-    char model[FM_PATH_MAX_BYTES]; /* techniques: "NAME=VALUE ..." of
-                                      device/tbr/models/parameters.yml */
-    uint32_t k;                    /* 0: the method does not use it */
+    uint32_t k; /* 0: the method does not use it */
     fm_lock lock;
     fm_buffers buffers;
     fm_pool pool;
     fm_full_screen full_screen;
+    fm_culling culling;
+    uint32_t cull_words; /* of 32 buckets each */
+    fm_cull_range cull_range;
+    fm_cull_test cull_test;
+    fm_cull_memory cull_memory;
+    fm_own_cull own_cull; /* whether exclusive passes ask wanted() */
     uint32_t launches, frames, warmup;
 } fm_settings;
 
@@ -140,6 +146,8 @@ typedef struct fm_key {
     uint32_t generators;    /* scene keys: bit g: generator g reads it; 0: all do */
     bool optional;          /* FM_KEY_UINT: "none" is a value too, kept as `absent` */
     uint32_t absent;
+    bool is_quiet; /* case keys: at its default it is not part of a case's id, which so stays
+                      what it was before there was the key */
 } fm_key;
 
 extern const fm_key fm_keys[];

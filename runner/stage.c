@@ -63,9 +63,8 @@ static fm_status create_slot(fm_stage *stage, int index, uint64_t bytes, const v
     return status;
 }
 
-/* data NULL: to be written later. */
-static fm_status create_geometry(fm_buffer **buffer, fm_device *device, const char *name,
-                                 const void *data, uint64_t bytes, fm_error *err)
+fm_status stage_create_geometry(fm_buffer **buffer, fm_device *device, const char *name,
+                                const void *data, uint64_t bytes, fm_error *err)
 {
     const fm_buffer_desc desc = { .name = name,
                                   .bytes = bytes,
@@ -90,7 +89,8 @@ static fm_status create_quad_indices(fm_buffer **buffer, fm_device *device, cons
     for (uint64_t i = 0; i < count; i++)
         indices[i] =
             (uint32_t)(i / INDICES_PER_QUAD) * CORNERS_PER_QUAD + corner[i % INDICES_PER_QUAD];
-    fm_status status = create_geometry(buffer, device, name, indices, count * sizeof *indices, err);
+    fm_status status =
+        stage_create_geometry(buffer, device, name, indices, count * sizeof *indices, err);
     free(indices);
     return status;
 }
@@ -144,11 +144,12 @@ static fm_status create_mesh(fm_stage *stage, fm_error *err)
     if (stage->feed != FM_FEED_RASTER)
         return FM_OK;
     fm_status status =
-        create_geometry(&stage->vertices, stage->device, "vertices", NULL,
-                        (uint64_t)scene->vertex_count * sizeof scene->vertices[0], err);
+        stage_create_geometry(&stage->vertices, stage->device, "vertices", NULL,
+                              (uint64_t)scene->vertex_count * sizeof scene->vertices[0], err);
     if (status == FM_OK)
-        status = create_geometry(&stage->indices, stage->device, "indices", NULL,
-                                 (uint64_t)scene->index_count * sizeof scene->indices[0], err);
+        status =
+            stage_create_geometry(&stage->indices, stage->device, "indices", NULL,
+                                  (uint64_t)scene->index_count * sizeof scene->indices[0], err);
     if (status == FM_OK)
         status = scene_mesh(scene, &sink, err);
     if (status == FM_OK)
@@ -308,6 +309,7 @@ void stage_destroy(fm_stage *stage)
     const fm_device_ops *ops = stage->device->ops;
     for (uint32_t i = 0; i < STAGE_SLOT_COUNT; i++)
         slot_destroy(&stage->slots[i], stage->device);
+    stage_destroy_covers(stage);
     ops->buffer_destroy(stage->device, stage->params);
     ops->buffer_destroy(stage->device, stage->vertices);
     ops->buffer_destroy(stage->device, stage->indices);

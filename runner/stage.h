@@ -16,16 +16,36 @@ enum {
     STAGE_LIST_OFFSETS,   /* uint: where each pixel's begin (compute-pixel) */
     STAGE_OUTPUT,         /* vec4: the image */
     STAGE_OUTPUT_BACK,    /* vec4: what was emitted from the back */
-    STAGE_COUNTERS,       /* uint: lost, culled, locks taken */
+    STAGE_COUNTERS,       /* uint: lost, culled, locks taken, arrived */
     STAGE_CAPTURE,        /* uvec2 (depth bits, colour): emitted fragments of a band of pixels */
     STAGE_CAPTURE_COUNTS, /* uvec2: how many, from the front and from the back */
     STAGE_SLOT_COUNT,
 };
 
-enum { STAGE_COUNTER_LOST, STAGE_COUNTER_CULLED, STAGE_COUNTER_LOCKED, STAGE_COUNTER_COUNT = 4 };
+enum {
+    STAGE_COUNTER_LOST,
+    STAGE_COUNTER_CULLED,
+    STAGE_COUNTER_LOCKED,
+    STAGE_COUNTER_ARRIVED,
+    STAGE_COUNTER_COUNT
+};
 
 /* Invocations of a workgroup, of every compute shader. */
 enum { STAGE_GROUP_SIZE = 64 };
+
+/* What a scene pass draws. */
+typedef enum fm_geometry {
+    FM_GEOMETRY_SCENE,
+    FM_GEOMETRY_FLAT, /* layers with t = 1 */
+    FM_GEOMETRY_HULL, /* covers: see fm_cover */
+    FM_GEOMETRY_BOX,
+    FM_GEOMETRY_COUNT
+} fm_geometry;
+
+typedef struct fm_stage_cover {
+    fm_buffer *vertices, *indices; /* NULL: not drawn by any method */
+    uint32_t index_count;
+} fm_stage_cover;
 
 typedef struct fm_stage {
     fm_device *device;
@@ -39,6 +59,8 @@ typedef struct fm_stage {
     fm_buffer *params;
     fm_buffer *vertices, *indices;
     fm_buffer *flat_indices; /* of the same layers with t = 1 */
+    fm_stage_cover covers[FM_GEOMETRY_COUNT];
+    const char *hull_cache; /* file that keeps the mesh's hull for later launches; NULL: none */
 } fm_stage;
 
 /* truth may be NULL: only when the raster feed captures it. The capture slots start unallocated.
@@ -59,16 +81,29 @@ fm_status stage_create_capture(fm_stage *stage, uint64_t pixels, uint64_t fragme
 fm_status stage_create_back(fm_stage *stage, fm_error *err);
 
 /* Defines that describe the scene and the feed, and the vertex shader of the raster feed. */
-void stage_define(fm_text *text, const fm_stage *stage, bool is_flat);
+void stage_define(fm_text *text, const fm_stage *stage, fm_geometry geometry);
 fm_status stage_vertex_shader(fm_text *text, const fm_use *uses, size_t use_count,
-                              const fm_stage *stage, const fm_shader_folders *folders, bool is_flat,
-                              fm_error *err);
+                              const fm_stage *stage, const fm_shader_folders *folders,
+                              fm_geometry geometry, fm_error *err);
 /* The slots that the feed itself reads; returns how many were added. */
-size_t stage_uses(fm_use *uses, fm_stage *stage);
-/* Fills the geometry part of a draw of the whole scene. */
-void stage_draw(fm_draw *draw, const fm_stage *stage, bool is_flat);
+size_t stage_uses(fm_use *uses, fm_stage *stage, fm_geometry geometry);
+/* Fills the geometry part of a draw of the whole scene, or of its cover. */
+void stage_draw(fm_draw *draw, const fm_stage *stage, fm_geometry geometry);
 /* Fills the vertex part of a pipeline. */
-void stage_vertex_layout(fm_pipeline_desc *desc, const fm_stage *stage);
+void stage_vertex_layout(fm_pipeline_desc *desc, const fm_stage *stage, fm_geometry geometry);
+
+static inline bool geometry_is_cover(fm_geometry geometry)
+{
+    return geometry == FM_GEOMETRY_HULL || geometry == FM_GEOMETRY_BOX;
+}
+/* Makes a cover ready to be drawn, unless it is (stage_cover.c). FM_UNSUPPORTED: of a compute feed.
+ */
+fm_status stage_create_cover(fm_stage *stage, fm_geometry geometry, fm_error *err);
+void stage_destroy_covers(fm_stage *stage);
+/* A vertex or index buffer; data NULL: to be written later. */
+fm_status stage_create_geometry(fm_buffer **buffer, fm_device *device, const char *name,
+                                const void *data, uint64_t bytes, fm_error *err);
+
 /* Workgroups of STAGE_GROUP_SIZE for so many invocations, within the device's limits, in two
  * dimensions. */
 fm_status stage_groups(uint32_t groups[3], const fm_device_caps *caps, uint64_t invocations,

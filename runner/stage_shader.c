@@ -22,14 +22,18 @@ static void define_layers(fm_text *text, const fm_stage *stage, bool is_flat)
     text_add(text, "struct fm_layer { float depth, slope_x, slope_y; uint colour; };\n");
 }
 
-void stage_define(fm_text *text, const fm_stage *stage, bool is_flat)
+void stage_define(fm_text *text, const fm_stage *stage, fm_geometry geometry)
 {
     const fm_scene *scene = stage->scene;
     shader_define(text, "FM_WIDTH", scene->width_px);
     shader_define(text, "FM_HEIGHT", scene->height_px);
     shader_define(text, "FM_PIXELS", (uint64_t)scene->width_px * scene->height_px);
+    if (geometry_is_cover(geometry)) {
+        shader_define(text, "FM_COVER_IN_NDC", scene_is_layers(stage->scene));
+        return;
+    }
     if (scene_is_layers(stage->scene))
-        define_layers(text, stage, is_flat);
+        define_layers(text, stage, geometry == FM_GEOMETRY_FLAT);
     if (stage->feed == FM_FEED_RASTER)
         return;
     shader_define(text, "FM_FEED_PIXEL", stage->feed == FM_FEED_COMPUTE_PIXEL);
@@ -39,42 +43,55 @@ void stage_define(fm_text *text, const fm_stage *stage, bool is_flat)
         text_add(text, "#define FM_REPLAY\n");
 }
 
-size_t stage_uses(fm_use *uses, fm_stage *stage)
+size_t stage_uses(fm_use *uses, fm_stage *stage, fm_geometry geometry)
 {
     size_t count = 0;
     for (uint32_t i = STAGE_LAYERS; i <= STAGE_LIST_OFFSETS; i++)
-        if (stage->slots[i].buffer != NULL)
+        if (stage->slots[i].buffer != NULL && (!geometry_is_cover(geometry) || i == STAGE_CLIP))
             uses[count++] = (fm_use){ .slot = &stage->slots[i], .access = FM_ACCESS_READ };
     return count;
 }
 
 fm_status stage_vertex_shader(fm_text *text, const fm_use *uses, size_t use_count,
-                              const fm_stage *stage, const fm_shader_folders *folders, bool is_flat,
-                              fm_error *err)
+                              const fm_stage *stage, const fm_shader_folders *folders,
+                              fm_geometry geometry, fm_error *err)
 {
+    const bool is_cover = geometry_is_cover(geometry), is_layers = scene_is_layers(stage->scene);
     bool any_address = false;
     for (size_t i = 0; i < use_count; i++)
         any_address = any_address || uses[i].slot->by_address;
     shader_begin(text, &stage->device->caps, any_address ? FM_FEATURE_BUFFER_ADDRESS : 0);
-    stage_define(text, stage, is_flat);
+    stage_define(text, stage, geometry);
     shader_declare(text, uses, use_count, "vertex");
     fm_status status = FM_OK;
-    if (scene_is_layers(stage->scene))
+    if (is_layers && !is_cover)
         status = shader_add_file(text, folders, "common/layers.glsl", err);
     if (status == FM_OK)
         status = shader_add_file(text, folders,
-                                 scene_is_layers(stage->scene) ? "common/layers_vertex.glsl"
-                                                               : "common/mesh_vertex.glsl",
+                                 is_cover    ? "common/cover_vertex.glsl"
+                                 : is_layers ? "common/layers_vertex.glsl"
+                                             : "common/mesh_vertex.glsl",
                                  err);
     return status;
 }
 
-void stage_draw(fm_draw *draw, const fm_stage *stage, bool is_flat)
+static void draw_cover(fm_draw *draw, const fm_stage *stage, const fm_stage_cover *cover)
 {
+    draw->vertices = cover->vertices;
+    draw->indices = cover->indices;
+    draw->vertex_count = cover->index_count;
+    draw->instance_count = scene_is_layers(stage->scene) ? 1 : stage->scene->instances;
+}
+
+void stage_draw(fm_draw *draw, const fm_stage *stage, fm_geometry geometry)
+{
+    const bool is_flat = geometry == FM_GEOMETRY_FLAT;
     const fm_scene *scene = stage->scene;
     const uint32_t t = scene->settings.tessellation, cells = t * t;
     draw->indices = stage->indices;
-    if (!scene_is_layers(stage->scene)) {
+    if (geometry_is_cover(geometry)) {
+        draw_cover(draw, stage, &stage->covers[geometry]);
+    } else if (!scene_is_layers(stage->scene)) {
         draw->vertices = stage->vertices;
         draw->vertex_count = scene->index_count;
         draw->instance_count = scene->instances;
@@ -91,9 +108,9 @@ void stage_draw(fm_draw *draw, const fm_stage *stage, bool is_flat)
     }
 }
 
-void stage_vertex_layout(fm_pipeline_desc *desc, const fm_stage *stage)
+void stage_vertex_layout(fm_pipeline_desc *desc, const fm_stage *stage, fm_geometry geometry)
 {
-    if (scene_is_layers(stage->scene))
+    if (scene_is_layers(stage->scene) && !geometry_is_cover(geometry))
         return;
     desc->vertex_stride_bytes = sizeof(fm_vertex);
     desc->attribute_count = 2;

@@ -7,10 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "culling.h"
 #include "device/device.h"
 #include "measure.h"
 #include "plugin.h"
-#include "technique_job.h"
 
 /* Largest difference of a timed image from its own captured fragments composited in double. */
 #define SELF_MAX_ABS 1e-6
@@ -20,6 +20,7 @@ typedef struct launch_job {
     json_t *request, *result;
     fm_device *device;
     fm_plugin *method, *floor;
+    fm_method_desc desc; /* the method, with culling if that is asked for */
     fm_settings settings;
     fm_choice choices[FM_MAX_OPTIONS];
     size_t choice_count;
@@ -27,8 +28,8 @@ typedef struct launch_job {
     fm_scene *scene;
     fm_truth *truth;
     fm_stage *stage;
+    char hull[FM_PATH_MAX_BYTES + 8]; /* beside the truth, for later launches of the scene */
     fm_measurement measurement;
-    uint64_t wrong_tiles; /* of a technique */
     fm_error error;
     const char *failed_in; /* "plugin": a failure is the plugin's fault */
 } launch_job;
@@ -160,14 +161,17 @@ static bool is_standard_pass(const char *name)
 static void add_frame(json_t *samples, uint32_t frame, const fm_sample *sample,
                       const fm_method_desc *method)
 {
-    uint64_t sum = 0;
+    uint64_t sum = 0, map = 0;
     char metric[96];
     for (size_t i = 0; i < FM_MAX_PASSES && method->passes[i].name != NULL; i++) {
         const char *name = method->passes[i].name;
         snprintf(metric, sizeof metric, "%s%s_ms", is_standard_pass(name) ? "" : "pass.", name);
         add_sample(samples, frame, metric, (double)sample->pass_ns[i] * 1e-6, "ms");
         sum += sample->pass_ns[i];
+        map += culling_is_map_pass(&method->passes[i]) ? sample->pass_ns[i] : 0;
     }
+    if (culling_is_applied(method))
+        add_sample(samples, frame, "culling_ms", (double)map * 1e-6, "ms");
     add_sample(samples, frame, "frame_ms", (double)sum * 1e-6, "ms");
     add_sample(samples, frame, "frame_wall_ms", (double)sample->wall_ns * 1e-6, "ms");
     add_sample(samples, frame, "floor_store_ms", (double)sample->floor_store_ns * 1e-6, "ms");
@@ -178,6 +182,7 @@ static void add_frame(json_t *samples, uint32_t frame, const fm_sample *sample,
 static void add_checked(json_t *metrics, const fm_measurement *m, const fm_truth *truth)
 {
     set_count(metrics, "fragments_stored", m->check.captured);
+    set_count(metrics, "fragments_arrived", m->arrived);
     set_count(metrics, "fragments_culled", m->culled);
     set_count(metrics, "locks_taken", m->locked);
     set_count(metrics, "missing", m->check.missing);
@@ -209,12 +214,13 @@ static void add_metrics(launch_job *job)
     set_count(metrics, "frames_redone", m->frames_redone);
     set_number(metrics, "redone_ms", (double)m->redone_ns * 1e-6);
     set_count(metrics, "frames_lossy", m->frames_lossy);
+    set_count(metrics, "scene_passes", m->scene_passes);
     if (m->k_chosen > 0)
         set_count(metrics, "k_chosen", m->k_chosen);
     if (m->is_checked)
         add_checked(metrics, m, job->truth);
     for (uint32_t i = 0; i < m->sample_count; i++)
-        add_frame(samples, i, &m->samples[i], job->method->method);
+        add_frame(samples, i, &m->samples[i], &job->desc);
     snprintf(hash, sizeof hash, "%016" PRIx64, image_hash(m->image));
     json_object_set_new(job->result, "image_hash", json_string(hash));
     json_object_set_new(job->result, "metrics", metrics);
@@ -230,10 +236,10 @@ static void add_modelled(launch_job *job)
             json_array_append_new(scene, json_string(job->stage->slots[i].name));
     if (job->stage->vertices != NULL)
         json_array_append_new(scene, json_string("vertices"));
-    for (size_t i = 0; i < FM_MAX_PASSES && job->method->method->passes[i].name != NULL; i++)
-        json_array_append_new(passes, json_string(job->method->method->passes[i].name));
-    for (size_t i = 0; i < FM_MAX_RESOURCES && job->method->method->resources[i].name != NULL; i++)
-        json_array_append_new(buffers, json_string(job->method->method->resources[i].name));
+    for (size_t i = 0; i < FM_MAX_PASSES && job->desc.passes[i].name != NULL; i++)
+        json_array_append_new(passes, json_string(job->desc.passes[i].name));
+    for (size_t i = 0; i < FM_MAX_RESOURCES && job->desc.resources[i].name != NULL; i++)
+        json_array_append_new(buffers, json_string(job->desc.resources[i].name));
     json_object_set_new(
         job->result, "modelled",
         json_pack("{s:o, s:o, s:o}", "scene", scene, "passes", passes, "buffers", buffers));
@@ -265,14 +271,7 @@ static const char *status_word(const launch_job *job, fm_status status)
 static bool is_wrong(launch_job *job)
 {
     const fm_measurement *m = &job->measurement;
-    if (job->method == NULL)
-        return false;
-    if (job->wrong_tiles > 0 && (job->method->method->traits & FM_TRAIT_EXACT) != 0) {
-        fm_fail(&job->error, FM_OK, "declared exact, but %" PRIu64 " tiles are not the baseline's",
-                job->wrong_tiles);
-        return true;
-    }
-    if (!m->is_checked || (job->method->method->traits & FM_TRAIT_EXACT) == 0)
+    if (!m->is_checked || (job->desc.traits & FM_TRAIT_EXACT) == 0)
         return false;
     if (m->check.missing + m->check.extra + m->check.misordered + m->lost > 0) {
         fm_fail(&job->error, FM_OK,
@@ -292,36 +291,9 @@ static bool is_wrong(launch_job *job)
 
 /* ---- jobs ---- */
 
-/* Frames: the simulated GPU runs the whole sequence; a truth job has no method, the baseline. */
-static fm_status frames_job(launch_job *job)
-{
-    const fm_technique_job desc = {
-        .method = job->method != NULL ? job->method->method : NULL,
-        .settings = &job->settings,
-        .choices = job->choices,
-        .choice_count = job->choice_count,
-        .truth = text_of(job, "truth"),
-        .image = text_of(job, "image"),
-    };
-    fm_status status = open_device(job);
-    if (status == FM_OK)
-        status = not_the_plugins(settings_finish(&job->settings, &job->error));
-    if (status == FM_OK)
-        status =
-            not_the_plugins(technique_job_run(job->result, &job->wrong_tiles, &desc, &job->error));
-    return status;
-}
-
-static bool has_frames(const launch_job *job)
-{
-    return feed_from_name(text_of(job, "feed")) == FM_FEED_FRAMES;
-}
-
 static fm_status truth_job(launch_job *job)
 {
     const char *path = text_of(job, "truth");
-    if (has_frames(job))
-        return frames_job(job);
     fm_status status = open_device(job);
     if (status == FM_OK)
         status = open_scene(job);
@@ -360,10 +332,10 @@ static fm_status write_images(launch_job *job)
 static fm_status measure(launch_job *job)
 {
     const char *common = text_of(job, "common");
-    const uint32_t places = measure_places(job->method->method, job->settings.k);
+    const uint32_t places = measure_places(&job->desc, job->settings.k);
     const fm_instance_desc method = {
         .stage = job->stage,
-        .method = job->method->method,
+        .method = &job->desc,
         .folders = { job->method->folder, common },
         .settings = &job->settings,
         .choices = job->choices,
@@ -387,8 +359,6 @@ static fm_status measure(launch_job *job)
 static fm_status measure_job(launch_job *job)
 {
     fm_status status = open_plugins(job);
-    if (status == FM_OK && has_frames(job))
-        return frames_job(job);
     if (status == FM_OK)
         status = read_feed(job);
     if (status == FM_OK)
@@ -396,12 +366,18 @@ static fm_status measure_job(launch_job *job)
     if (status == FM_OK)
         status = open_scene(job);
     if (status == FM_OK)
+        status =
+            culling_apply(&job->desc, job->method->method, &job->settings, job->feed, &job->error);
+    if (status == FM_OK)
         status = truth_open(&job->truth, text_of(job, "truth"), &job->error);
     if (status == FM_OK)
         status =
             stage_create(&job->stage, job->device, job->scene, job->truth, job->feed, &job->error);
-    if (status == FM_OK)
+    if (status == FM_OK) {
+        snprintf(job->hull, sizeof job->hull, "%s.hull", text_of(job, "truth"));
+        job->stage->hull_cache = job->hull;
         status = measure(job);
+    }
     if (status == FM_OK)
         status = write_images(job);
     if (status != FM_OK)

@@ -62,6 +62,29 @@ static uint64_t routed(const workload *w)
     return (8 + 4 + 1) * w->k * w->pixels;
 }
 
+/* Eight slots; four samples of fragment, depth and stencil; the boundary and a flag. */
+static uint64_t multipass_k_buffer(const workload *w)
+{
+    return (8 * 8 + 4) * w->pixels + 4;
+}
+
+static uint64_t multipass_routed(const workload *w)
+{
+    return ((8 + 4 + 1) * 4 + 4) * w->pixels + 4;
+}
+
+/* Pairs of fragments. */
+static uint64_t packed_k_buffer(const workload *w)
+{
+    return 16 * ((w->k + 1) / 2) * w->pixels;
+}
+
+/* A count more than dual_peeling. */
+static uint64_t counted_dual_peeling(const workload *w)
+{
+    return 28 * w->pixels;
+}
+
 static uint64_t counted(const workload *w)
 {
     return (8 * w->k + 4) * w->pixels;
@@ -148,6 +171,10 @@ static const struct formula {
     { "kplus-heap", kplus },
     { "kplus-dynamic", chosen_kplus },
     { "kb", k_buffer },
+    { "kb-packed", packed_k_buffer },
+    { "kb-multipass", multipass_k_buffer },
+    { "kb-sr-multipass", multipass_routed },
+    { "dual-k", counted_dual_peeling },
     { "kb-mdt64", k_buffer },
     { "mlab", locked_k_buffer },
     { "kb-multi", flagged_k_buffer },

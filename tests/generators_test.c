@@ -29,6 +29,9 @@ static const printed all_printed[] = {
     { "bunny-in-cube", "pixel_density=0.5", 69678, 12, 0.50, 0, 0, false },
     { "bunny-in-cube", "pixel_density=0.75", 69678, 12, 0.75, 0, 0, false },
     { "bunny-in-cube", "pixel_density=1", 69678, 12, 1.00, 0, 0, false },
+    { "palace", "width_px=640 height_px=480", 109168, 25, 0.45, 455393, 0, false },
+    { "palace", "width_px=1024 height_px=768", 109168, 25, 0.45, 1166541, 0, false },
+    { "palace", "width_px=1600 height_px=1200", 109168, 25, 0.45, 2846536, 0, false },
     /* The fragments follow from the occupancy-maps paper: 67.4 MB of list nodes saved. */
     { "hairball", "", 2880000, 180, 0.6465, 22000000, 0, true },
 };
@@ -129,6 +132,7 @@ static const struct {
     const char *scene;
     uint64_t digest;
 } digests[] = {
+    { "palace", 0xcd5571c067083b1b },
     { "hairball", 0x4bd953fe4c01ca49 },
 };
 

@@ -341,13 +341,25 @@ static void expect_as_default(kit_scene *scene, const fm_method_desc *method, ui
     measurement_free(&m);
 }
 
+/* How many arrivals a pass keeps is which ones it keeps, where they do not come in order. */
+static bool decides_what_is_kept(const fm_method_desc *method, const fm_option *option)
+{
+    bool is_samples = false;
+    for (int i = 0; i < FM_MAX_RESOURCES && method->resources[i].name != NULL; i++)
+        is_samples |= method->resources[i].samples_option != NULL &&
+                      strcmp(method->resources[i].samples_option, option->name) == 0;
+    return is_samples && (method->traits & FM_TRAIT_SORTED_INPUT) != 0;
+}
+
 static void expect_own_options(kit_scene *scene, const fm_method_desc *method, uint32_t feed,
                                const fm_image *by_default)
 {
     char texts[160];
     for (const fm_option *option = method->options;
          option < method->options + FM_MAX_OPTIONS && option->name != NULL; option++)
-        for (int i = 0; i < FM_MAX_OPTION_VALUES && option->values[i] != NULL; i++) {
+        for (int i = 0; i < FM_MAX_OPTION_VALUES && option->values[i] != NULL &&
+                        !decides_what_is_kept(method, option);
+             i++) {
             snprintf(texts, sizeof texts, "k=4 %s=%s", option->name, option->values[i]);
             expect_as_default(scene, method, feed, by_default, texts);
         }

@@ -7,7 +7,6 @@
 #include <cmocka.h>
 #include <string.h>
 
-#include "fragmark/technique.h"
 #include "plugin.h"
 
 /* A descriptor that uses most of the interface and is right. */
@@ -90,6 +89,15 @@ static void assert_check_fails(const fm_method_desc *method, const char *message
         fm_method_desc m = sound();                                                                \
         CHANGE;                                                                                    \
         assert_check_fails(&m, MESSAGE);                                                           \
+    } while (0)
+
+#define ACCEPTS(CHANGE)                                                                            \
+    do {                                                                                           \
+        fm_method_desc m = sound();                                                                \
+        fm_error err = { .message = "" };                                                          \
+        CHANGE;                                                                                    \
+        if (plugin_check(&m, "test", &err) != FM_OK)                                               \
+            fail_msg("%s", err.message);                                                           \
     } while (0)
 
 enum { FRAGMENTS, COUNTS, POOL, COLOUR, DEPTH };
@@ -199,9 +207,21 @@ static void plugin_check_rejects_bad_buffers(void **state)
     REFUSES(m.resources[COUNTS].extent.option = "page", "no such option; nearest is 'pages'");
     REFUSES(m.resources[COUNTS].extent.option = "layout", "no whole number");
     REFUSES(m.resources[COUNTS].extent.option = NULL, "needs extent.option");
+    REFUSES(m.resources[COUNTS].extent.per_pixel_option = 4097, "4096 at most");
+    REFUSES(m.resources[POOL].extent.per_pixel_option = 1, "needs extent.option");
+    REFUSES(m.resources[POOL].extent.k_step = 2, "extent.k_step: needs extent.per_pixel_k");
+    REFUSES(m.options[1].values[1] = "1048577", "no whole number up to 1048576");
+    REFUSES(m.resources[POOL].samples_option = "pages", "a buffer has no");
     REFUSES(m.resources[POOL].overflow = NULL, "needs overflow");
     REFUSES(m.resources[POOL].overflow = "no-rom", "nearest is 'no-room'");
     REFUSES(m.resources[COUNTS].overflow = "no-room", "only with FM_SIZE_GROW");
+    REFUSES(m.resources[COUNTS].shares = "fragmets", "nearest is 'fragments'");
+    REFUSES(m.resources[COUNTS].shares = "counts", "shares 'counts': both");
+    REFUSES(m.resources[COUNTS].shares = "pool", "shares 'pool': both");
+    ACCEPTS(
+        (m.resources[DEPTH + 1] =
+             (fm_resource){ .name = "sharer", .extent = { .constant = 2 }, .shares = "owner" },
+         m.resources[DEPTH + 2] = (fm_resource){ .name = "owner", .extent = { .constant = 1 } }));
 }
 
 static void plugin_check_rejects_bad_images(void **state)
@@ -258,6 +278,11 @@ static void plugin_check_rejects_bad_passes(void **state)
     REFUSES(m.passes[COUNT].clear_word = 1, "clear_word");
     REFUSES(m.passes[RESOLVE].exclusive = true, "exclusive");
     REFUSES(m.passes[RESOLVE].flat_tessellation = true, "flat_tessellation");
+    REFUSES(m.passes[STORE].cover = FM_COVER_COUNT, "cover");
+    REFUSES(m.passes[STORE].cover = FM_COVER_HULL, "cover: only scene passes");
+    REFUSES((m.feeds = FM_FEED_RASTER, m.passes[RESOLVE].cover = FM_COVER_HULL),
+            "cover: only scene passes");
+    ACCEPTS((m.feeds = FM_FEED_RASTER, m.passes[STORE].cover = FM_COVER_HULL));
     REFUSES(m.passes[STORE].flat_option = "layout", "flat_option: needs flat_tessellation");
     REFUSES(m.passes[CLEAR].emits = true, "emits");
     REFUSES(m.passes[STORE].emits = true, "emits: a pass of kind scene cannot");
@@ -280,6 +305,9 @@ static void plugin_check_rejects_bad_attachments(void **state)
     REFUSES(m.resources[COLOUR].format = FM_FORMAT_R32UI, "do not blend");
     REFUSES(m.resources[COLOUR].samples = 1, "samples");
     REFUSES(m.resources[COLOUR].samples_per_k = 4, "4 + 0 k samples, the others have 4 + 4 k");
+    REFUSES(m.resources[COLOUR].samples_option = "pages", "the others have those of 'pages'");
+    REFUSES(m.resources[COLOUR].samples_option = "page", "samples_option 'page': no such option");
+    REFUSES(m.resources[COLOUR].samples_option = "layout", "samples_option 'layout': its value");
     REFUSES(m.passes[SPREAD].targets[0].resource = "colour", "has none");
     REFUSES(m.passes[STORE].state.depth_stencil = "colour", "needs a depth format");
     REFUSES(m.passes[STORE].state.depth_stencil = NULL, "need depth_stencil");
@@ -288,6 +316,17 @@ static void plugin_check_rejects_bad_attachments(void **state)
     REFUSES(m.passes[STORE].state.stencil_pass = FM_STENCIL_OP_COUNT, "stencil_pass");
     REFUSES(m.passes[STORE].state.stencil_reference = 256, "stencil_reference");
     REFUSES(m.resources[DEPTH].format = FM_FORMAT_D32F, "FM_FORMAT_D32F_S8");
+}
+
+/* What steps in a counted loop may do so though the loop around that one ends by a total. */
+static void plugin_check_asks_the_innermost_loop_of_a_step(void **state)
+{
+    (void)state;
+    fm_method_desc m = sound();
+    m.passes[PEEL].state.sample_mask_step = 1;
+    m.loops[1].count_per_k = 0;
+    m.loops[1].count_option = "pages";
+    assert_int_equal(plugin_check(&m, "x.so", NULL), FM_OK);
 }
 
 static void plugin_check_rejects_bad_loops(void **state)
@@ -299,74 +338,13 @@ static void plugin_check_rejects_bad_loops(void **state)
     REFUSES(m.loops[1].first = "peel"; m.loops[1].last = "spread", "overlaps");
     REFUSES(m.loops[1].last = "store", "overlaps");
     REFUSES(m.loops[1].count_per_k = 0, "no end");
+    REFUSES(m.loops[1].count_option = "page", "count_option 'page': no such option");
+    REFUSES(m.loops[1].count_option = "layout", "count_option 'layout': its value");
+    REFUSES(m.passes[STORE].state.sample_mask_step = 1, "pass 'store': need a loop of known count");
+    REFUSES((m.passes[PEEL].state.sample_mask_step = 1, m.loops[1].until_zero = "passed"),
+            "pass 'peel': need a loop of known count");
     REFUSES(m.loops[0].until_zero = "pased", "nearest is 'passed'");
     REFUSES(m.loops[3].first = "clear", "loops[3]");
-}
-
-static fm_method_desc technique_method(const fm_technique *technique)
-{
-    return (fm_method_desc){
-        .abi = FM_ABI,
-        .size_bytes = sizeof(fm_method_desc),
-        .id = "sound-3",
-        .title = "Sound",
-        .citation = "none",
-        .version = "1",
-        .feeds = FM_FEED_FRAMES,
-        .keeps = FM_KEEPS_NEAREST,
-        .options = { { .name = "tie", .values = { "exact", "paper" } } },
-        .technique = technique,
-    };
-}
-
-static fm_prediction see_all(const fm_pair *pair)
-{
-    (void)pair;
-    return FM_VISIBLE;
-}
-
-static bool skip_none(const fm_tile_start *tile)
-{
-    (void)tile;
-    return false;
-}
-
-static void plugin_check_takes_a_sound_technique(void **state)
-{
-    (void)state;
-    const fm_technique technique = { .parts = FM_PART_VISIBILITY | FM_PART_SIGNATURES,
-                                     .choices = { { "tie", "exact", FM_PART_EXACT_TIES } },
-                                     .predict = see_all,
-                                     .skip = skip_none };
-    const fm_method_desc m = technique_method(&technique);
-    fm_error err = { 0 };
-    if (plugin_check(&m, "x.so", &err) != FM_OK)
-        fail_msg("%s", err.message);
-}
-
-/* CHANGE works on `m` and its technique `t`. */
-#define REFUSES_TECHNIQUE(CHANGE, MESSAGE)                                                         \
-    do {                                                                                           \
-        fm_technique t = { 0 };                                                                    \
-        fm_method_desc m = technique_method(&t);                                                   \
-        CHANGE;                                                                                    \
-        assert_check_fails(&m, MESSAGE);                                                           \
-    } while (0)
-
-static void plugin_check_rejects_bad_techniques(void **state)
-{
-    (void)state;
-    REFUSES(m.feeds = FM_FEED_RASTER | FM_FEED_FRAMES, "methods with a technique");
-    REFUSES_TECHNIQUE(m.feeds |= FM_FEED_RASTER, "'frames' alone");
-    REFUSES_TECHNIQUE(m.passes[0].name = "store", "are for methods of passes");
-    REFUSES_TECHNIQUE(m.keeps = FM_KEEPS_ALL, "keeps");
-    REFUSES_TECHNIQUE(t.parts = 1u << 31, "parts: unknown bits 0x80000000");
-    REFUSES_TECHNIQUE(t.choices[0].option = "ties", "choices[0]: option 'ties'");
-    REFUSES_TECHNIQUE(t.choices[1] = ((fm_part_choice){ "tie", "maybe", 0 }), "no value 'maybe'");
-    REFUSES_TECHNIQUE(t.choices[1] = ((fm_part_choice){ "tie", "paper", 1u << 30 }), "unknown");
-    REFUSES_TECHNIQUE(t.predict = see_all, "predict: needs FM_PART_VISIBILITY");
-    REFUSES_TECHNIQUE(t.skip = skip_none, "skip: needs FM_PART_SIGNATURES");
-    REFUSES_TECHNIQUE(t.parts = FM_PART_TAINT, "taint needs");
 }
 
 int main(void)
@@ -383,8 +361,7 @@ int main(void)
         cmocka_unit_test(plugin_check_rejects_bad_passes),
         cmocka_unit_test(plugin_check_rejects_bad_attachments),
         cmocka_unit_test(plugin_check_rejects_bad_loops),
-        cmocka_unit_test(plugin_check_takes_a_sound_technique),
-        cmocka_unit_test(plugin_check_rejects_bad_techniques),
+        cmocka_unit_test(plugin_check_asks_the_innermost_loop_of_a_step),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

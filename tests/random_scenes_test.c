@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <unistd.h>
 
+#include "random_kit.h"
 #include "scene_kit.h"
 
 enum { LAYER_SCENES = 200, SCENES = LAYER_SCENES + 1, FAILURES_SHOWN = 20, TRIES = 4 };
@@ -13,21 +14,6 @@ enum { LAYER_SCENES = 200, SCENES = LAYER_SCENES + 1, FAILURES_SHOWN = 20, TRIES
 static const double image_tolerance = 2e-6;
 
 #define BUNNY "/usr/share/glmark2/models/bunny.obj"
-
-/* splitmix64 */
-static uint64_t draw_u64(uint64_t *state)
-{
-    uint64_t z = *state += 0x9E3779B97F4A7C15u;
-    z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ z >> 27) * 0x94D049BB133111EBu;
-    return z ^ z >> 31;
-}
-
-/* low..high */
-static uint32_t draw_in(uint64_t *state, uint32_t low, uint32_t high)
-{
-    return low + (uint32_t)(draw_u64(state) % (high - low + 1));
-}
 
 /* Half of the scenes have about k layers, where methods change what they do; the others rather few
  * than many. */

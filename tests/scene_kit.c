@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <unistd.h>
 
+#include "culling.h"
 #include "plan_case.h"
 
 void kit_open(scene_kit *kit, fm_device *device)
@@ -144,6 +145,7 @@ static void fill_desc(fm_instance_desc *desc, const kit_scene *scene, const fm_p
 typedef struct asked_case {
     fm_settings settings;
     fm_choice choices[FM_MAX_OPTIONS];
+    fm_method_desc method; /* with culling, if asked for */
     fm_instance_desc desc;
     fm_stage *stage;
 } asked_case;
@@ -166,7 +168,12 @@ static fm_status ask(asked_case *asked, kit_scene *scene, const kit_way *way, fm
     fill_desc(&asked->desc, scene, entry->plugin, &asked->settings);
     asked->desc.choices = asked->choices;
     asked->desc.choice_count = choice_count;
-    const fm_status status =
+    asked->desc.method = &asked->method;
+    fm_status status =
+        culling_apply(&asked->method, entry->plugin->method, &asked->settings, way->feed, err);
+    if (status != FM_OK)
+        return status;
+    status =
         stage_create(&asked->stage, scene->kit->device, scene->scene, scene->truth, way->feed, err);
     if (status == FM_OK && scene->told_n != 0)
         asked->stage->n = scene->told_n;

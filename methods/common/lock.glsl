@@ -9,7 +9,7 @@
 void fm_take(uvec2 pixel, float depth, uint colour)
 {
 #if FM_EXCLUSIVE
-    if (!wanted(pixel, depth)) {
+    if (FM_OWN_CULL != 0 && !wanted(pixel, depth)) {
         fm_culled();
         return;
     }

@@ -37,11 +37,19 @@ void fm_locked()
 {
     atomicAdd(fm_counters[2], 1u);
 }
+void fm_arrived()
+{
+    if (FM_IS_STORE != 0 && fm_iteration == 0u) // in loops the first time only
+        atomicAdd(fm_counters[3], 1u);
+}
 #else
 void fm_culled()
 {
 }
 void fm_locked()
+{
+}
+void fm_arrived()
 {
 }
 #endif

@@ -14,13 +14,19 @@ void main()
     // A helper lane's atomics do nothing: it would wait for a lock for ever.
     is_alive = is_alive && !gl_HelperInvocation;
 #endif
+#if FM_CULL_IN_SHADER
+    // Before stencil and blending, as the depth test does it for passes that can have one. Less or equal.
+    is_alive = is_alive && depth <= fm_load_fm_cull_boundary(pixel).x;
+#endif
 #if FM_TARGETS
     if (!is_alive)
         discard;
 #endif
+    if (is_alive)
+        fm_arrived();
 #if FM_INTERLOCK
     // GLSL allows the two calls in main() only, and not behind a return.
-    bool is_wanted = is_alive && wanted(pixel, depth);
+    bool is_wanted = is_alive && (FM_OWN_CULL == 0 || wanted(pixel, depth));
     beginInvocationInterlockARB();
     if (is_wanted)
         store(pixel, depth, fm_in_colour);

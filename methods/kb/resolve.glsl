@@ -1,11 +1,14 @@
 #include "common/array.glsl"
+#include "kb/slots.glsl"
 
+// Already in order. Where there are fewer slots than k, iteration i has the fragments from i SLOTS on.
 void resolve(uvec2 pixel)
 {
-    FM_LOOP for (uint i = 0u; i < K; ++i) { // already in order
-        uvec2 fragment = fragments[array_slot(pixel, i, K)];
+    uint first = fm_iteration * SLOTS, count = min(uint(SLOTS), uint(K) - first);
+    FM_LOOP for (uint i = 0u; i < count; ++i) {
+        uvec2 fragment = fragments[array_slot(pixel, i, SLOTS)];
         if (fragment.x == FM_EMPTY_BITS)
             break;
-        fm_emit(pixel, int(i), uintBitsToFloat(fragment.x), fragment.y);
+        fm_emit(pixel, int(first + i), uintBitsToFloat(fragment.x), fragment.y);
     }
 }

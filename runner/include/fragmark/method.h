@@ -21,7 +21,8 @@
  *                 #define for each option (see fm_option)
  *   scene pass    defines  void store(uvec2 pixel, float depth, uint colour)
  *                 and, if it is exclusive,  bool wanted(uvec2 pixel, float depth), the cull,
- *                 which is called outside the lock
+ *                 which is called outside the lock. It saves work only: store() is also right for
+ *                 fragments that it would refuse (its answer may be stale; own_cull=off)
  *   pixel pass    (FM_PASS_PIXELS) defines  void NAME(uvec2 pixel), NAME being the pass's name
  *                 with '-' written '_'
  *   other passes  define  void NAME(uint index): a tile, a triangle, or a unit of a total
@@ -149,9 +150,12 @@ typedef struct fm_extent {
     const char *total;
     uint64_t per_option;
     const char *option;
+    uint64_t per_pixel_option; /* times the pixels, for each unit of `option` */
+    uint32_t k_step;           /* per_pixel_k counts ceil(k / k_step); 0 is 1 */
 } fm_extent;
 
-/* How many of a resource's elements hold something in a frame: bytes_used. */
+/* How many of a resource's elements hold something in a frame: bytes_used, never more than there
+ * are. */
 typedef struct fm_used {
     uint64_t per_pixel;
     uint64_t per_fragment; /* F: all fragments of the scene */
@@ -205,6 +209,9 @@ typedef struct fm_resource {
     fm_extent extent;   /* buffers, in elements */
     fm_sizing sizing;   /* buffers */
     const char *overflow;
+    const char *shares; /* fixed buffers: lies in the memory of this other fixed buffer, which gets
+                           the larger of both sizes; what the one holds is gone once a pass writes
+                           the other, and a clear pass fills all of it */
 
     fm_format format;       /* images */
     uint32_t samples;       /* images; 0 is 1 */
@@ -218,6 +225,7 @@ typedef struct fm_resource {
     bool ping_pong; /* two copies, swapped after each iteration of a loop: NAME is written,
                        NAME_previous (a name to use in `reads`) is what the last one wrote */
     fm_used used;
+    const char *samples_option; /* images; added: the number that this option is */
 } fm_resource;
 
 /* A number that the runner reads back. Exactly one source is set. */
@@ -286,6 +294,16 @@ typedef enum fm_load {
     FM_LOAD_COUNT
 } fm_load;
 
+/* What a scene pass draws instead of the scene: a body that holds it, to learn at little cost
+ * between which depths a pixel's fragments lie. Its colour is 0. Where the near plane cuts the body
+ * its front is missing, and rounding may leave a fragment a few ulp outside. */
+typedef enum fm_cover {
+    FM_COVER_NONE, /* the scene itself */
+    FM_COVER_HULL, /* convex hull of the mesh; of layers the nearest and farthest at each corner */
+    FM_COVER_BOX,  /* bounding box */
+    FM_COVER_COUNT
+} fm_cover;
+
 /* A colour attachment. The shader writes fm_target_NAME. */
 typedef struct fm_target {
     const char *resource;
@@ -294,7 +312,7 @@ typedef struct fm_target {
     bool no_write; /* colour mask off */
 } fm_target;
 
-/* Fixed-function state. Values that depend on the iteration i of the pass's loop:
+/* Fixed-function state. Values that depend on the iteration i of the pass's innermost loop:
  * stencil_reference + stencil_reference_step * i, and sample_mask << (sample_mask_step * i). */
 typedef struct fm_state {
     const char *depth_stencil; /* the image that is tested */
@@ -326,16 +344,19 @@ typedef struct fm_pass {
     const char *indirect;    /* FM_PASS_INDIRECT */
     uint32_t clear_word;     /* FM_PASS_CLEAR */
     const char *flat_option; /* flat_tessellation holds only where this option is "flat" */
+    fm_cover cover;          /* FM_PASS_SCENE of methods that take the raster feed only */
 } fm_pass;
 
-/* Passes first..last (by name) run again and again: `count` times (constant + per k + per n), or
- * until a total is zero, which is read after each iteration; with both, whichever comes first;
- * never more than `max`. Ping-pong resources swap after each iteration. */
+/* Passes first..last (by name) run again and again: `count` times (constant + per k + per n + the
+ * number that an option is), or until a total is zero, which is read after each iteration; with
+ * both, whichever comes first; never more than `max`. Ping-pong resources swap after each
+ * iteration. */
 typedef struct fm_loop {
     const char *first, *last;
     uint32_t count, count_per_k, count_per_n;
     const char *until_zero;
     uint32_t max; /* 0 is 65536 */
+    const char *count_option;
 } fm_loop;
 
 /* What is known when a frame starts; what bytes() and after() are told. */
@@ -386,10 +407,6 @@ typedef struct fm_method_desc {
     /* FM_KEEPS_K_NEAREST only: the total that is the frame's k where the method chooses it, from 1
      * to the axis k. Truth wants that many, samples.csv tells them as k_chosen. NULL: k itself. */
     const char *k_total;
-
-    /* Techniques of the simulated tile-based GPU have this in place of resources, totals, passes,
-     * loops and the hooks above, and FM_FEED_FRAMES for their only feed (fragmark/technique.h). */
-    const struct fm_technique *technique;
 } fm_method_desc;
 
 /* The one symbol of a plugin. Compile plugins with hidden visibility. */

@@ -1,0 +1,26 @@
+#include "fragmark/method.h"
+
+const fm_method_desc fm_method = {
+    .abi = FM_ABI,
+    .size_bytes = sizeof(fm_method_desc),
+    .id = "kb-packed",
+    .title = "KB, packed",
+    .citation = "Bavoil, Callahan, Lefohn, Comba, Silva 2007, doi:10.1145/1230100.1230117",
+    .version = "1",
+    .traits = FM_TRAIT_BOUNDED | FM_TRAIT_RACY,
+    .keeps = FM_KEEPS_K_NEAREST,
+    .family = FM_FAMILY_K_BUFFER,
+    .marker = FM_MARKER_DIAMOND,
+    .options = { { .name = "layout", .values = { "pixel", "layer", "tile" },
+                   .help = "side by side: a pixel's, the i-th of all pixels, or of a tile" } },
+    .resources = {
+        { .name = "pairs", .element = FM_ELEMENT_UVEC4,
+          .extent = { .per_pixel_k = 1, .k_step = 2 }, .used = { .per_kept = 1 } },
+    },
+    .passes = {
+        { .name = "clear", .kind = FM_PASS_PIXELS, .shader = "clear.glsl", .writes = { "pairs" } },
+        { .name = "store", .shader = "store.glsl", .writes = { "pairs" } },
+        { .name = "resolve", .kind = FM_PASS_PIXELS, .shader = "resolve.glsl", .emits = true,
+          .reads = { "pairs" } },
+    },
+};

@@ -1,0 +1,4 @@
+// Places of a pixel's list: k, unless the method has an option of this name.
+#ifndef SLOTS
+#define SLOTS K
+#endif
