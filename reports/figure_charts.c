@@ -18,11 +18,19 @@ typedef struct job {
     size_t x_count, y_count;
 } job;
 
-bool figure_takes_case(const fm_case_row *result, const void *figure)
+fm_figure_cases figure_cases(const fm_result_files *results, const fm_paper_figure *figure)
 {
-    const fm_paper_figure *of = figure;
-    return name_list_has(&of->methods, result->method) &&
-           name_list_has(&of->scenes, result->scene) && name_list_has(&of->feeds, result->feed);
+    return (fm_figure_cases){ figure, result_files_figure(results, figure->id) };
+}
+
+bool figure_takes_case(const fm_case_row *result, const void *cases)
+{
+    const fm_figure_cases *of = cases;
+    if (of->bit != 0)
+        return (result->figures & of->bit) != 0;
+    return name_list_has(&of->figure->methods, result->method) &&
+           name_list_has(&of->figure->scenes, result->scene) &&
+           name_list_has(&of->figure->feeds, result->feed);
 }
 
 static bool is_level(const job *at, const fm_case_row *result)

@@ -6,8 +6,15 @@
 #include "group.h"
 #include "paper_figure.h"
 
-/* Context: the figure. Takes the cases that belong to it. */
-bool figure_takes_case(const fm_case_row *result, const void *figure);
+/* The cases of a run that belong to a figure: by figures.csv, or where that does not name the
+ * figure by the methods, scenes and feeds of its `run`. */
+typedef struct fm_figure_cases {
+    const fm_paper_figure *figure;
+    uint64_t bit;
+} fm_figure_cases;
+fm_figure_cases figure_cases(const fm_result_files *results, const fm_paper_figure *figure);
+/* Context: an fm_figure_cases. */
+bool figure_takes_case(const fm_case_row *result, const void *cases);
 
 /* One chart of the figure for one group. Methods that do not use k are level lines. FM_UNSUPPORTED:
  * the group has nothing to draw in it, with the reason. The caller frees *chart. */

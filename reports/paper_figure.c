@@ -5,9 +5,9 @@
 
 #include "text.h"
 
-static const char *const figure_keys[] = { "id",         "paper", "title",  "source",
-                                           "run",        "smoke", "charts", "paper_points",
-                                           "deviations", "table", "claims" };
+static const char *const figure_keys[] = { "id",           "paper",      "title", "source",
+                                           "run",          "smoke",      "large", "charts",
+                                           "paper_points", "deviations", "table", "claims" };
 static const char *const chart_keys[] = { "id",    "kind",     "title",      "x",      "y",
                                           "parts", "ratio_to", "with_paper", "y_scale" };
 static const char *const points_keys[] = { "parts", "series" };
@@ -146,6 +146,8 @@ static fm_status read_head(fm_paper_figure *figure, const fm_yaml *root, const f
         status = field_text(&figure->source, root, "source", false, at);
     if (status == FM_OK)
         status = field_list(&figure->deviations, root, "deviations", at);
+    if (status == FM_OK && run != NULL && run->kind == FM_YAML_LIST)
+        return FM_OK; /* figures.csv tells */
     if (status == FM_OK && run != NULL)
         status = field_list(&figure->methods, run, "methods", at);
     if (status == FM_OK && run != NULL)

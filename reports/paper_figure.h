@@ -4,13 +4,10 @@
  *   paper: kplus
  *   title: ...
  *   source: where in the paper, and how its values were read
- *   run:                           what `fragmark reproduce` measures: keys of a spec file
- *     methods: [kplus-array, ...]
- *     scenes: [layers]
- *     feeds: [raster]
- *     k: [4, 8]
- *   smoke: { n: 32 }               what --smoke changes in `run`
- *   charts:                        in the report's order
+ *   run:                           what `fragmark reproduce` measures: keys of a spec file, or a
+ * list of such blocks methods: [kplus-array, ...] scenes: [layers] feeds: [raster] k: [4, 8] smoke:
+ * { n: 32 }               what --smoke changes in each block of `run` large: [blocks] what --large
+ * measures too charts:                        in the report's order
  *     - id: time                   part of the file name charts/ID-time-*.svg
  *       kind: lines                or stacked-bars
  *       title: ...

@@ -115,7 +115,8 @@ static fm_status add_figure_charts(writer *to, const fm_paper_figure *figure,
 static fm_status add_figure(writer *to, const fm_paper_figure *figure)
 {
     fm_groups groups;
-    fm_status status = groups_make(&groups, to->results, figure_takes_case, figure, to->err);
+    const fm_figure_cases cases = figure_cases(to->results, figure);
+    fm_status status = groups_make(&groups, to->results, figure_takes_case, &cases, to->err);
     if (status != FM_OK)
         return status;
     text_add(&to->page, "<h3>");

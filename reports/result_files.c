@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "text.h"
 
@@ -282,6 +283,38 @@ static fm_status read_table(fm_table **table, const char *directory, const char 
     return table_read(table, path, err);
 }
 
+uint64_t result_files_figure(const fm_result_files *results, const char *id)
+{
+    for (size_t i = 0; i < results->figure_count; i++)
+        if (strcmp(results->figure_names[i], id) == 0)
+            return (uint64_t)1 << i;
+    return 0;
+}
+
+static fm_status read_figures(fm_result_files *results, fm_error *err)
+{
+    char path[1024];
+    size_t figure = 0, id = 0;
+    snprintf(path, sizeof path, "%s/figures.csv", results->directory);
+    if (access(path, F_OK) != 0)
+        return FM_OK;
+    fm_status status = table_read(&results->figures, path, err);
+    if (status == FM_OK)
+        status = need_column(&figure, results->figures, "figure", err);
+    if (status == FM_OK)
+        status = need_column(&id, results->figures, "case_id", err);
+    for (size_t row = 0; status == FM_OK && row < results->figures->row_count; row++) {
+        const char *name = table_cell(results->figures, row, figure);
+        if (result_files_figure(results, name) == 0 && results->figure_count < FM_RESULT_FIGURES)
+            results->figure_names[results->figure_count++] = name;
+        const uint32_t found =
+            find_case(results, table_cell(results->figures, row, id), (uint32_t)row);
+        if (found != UINT32_MAX)
+            results->cases[found].figures |= result_files_figure(results, name);
+    }
+    return status;
+}
+
 fm_status result_files_read(fm_result_files **results, const char *directory, fm_error *err)
 {
     char path[1024];
@@ -300,6 +333,8 @@ fm_status result_files_read(fm_result_files **results, const char *directory, fm
         status = read_cases(made, err);
     if (status == FM_OK)
         status = read_samples(made, err);
+    if (status == FM_OK)
+        status = read_figures(made, err);
     if (status != FM_OK) {
         result_files_close(made);
         return status;
@@ -318,131 +353,20 @@ void result_files_close(fm_result_files *results)
     free(results->sample_rows);
     free(results->sample_first);
     free(results->cases);
+    table_close(results->figures);
     table_close(results->samples);
     table_close(results->summary);
     provenance_close(results->manifest);
     free(results);
 }
 
-static bool is_metric(const fm_result_files *results, size_t row, const char *name)
+bool result_files_number(double *value, const fm_case_row *result, const char *name)
 {
-    return results->sample_case[row] != UINT32_MAX && isfinite(results->sample_value[row]) &&
-           strcmp(table_cell(results->samples, row, results->sample_metric), name) == 0;
-}
-
-/* Median of a case's samples of one metric. */
-static double sample_median(const fm_result_files *results, size_t case_index, const char *name)
-{
-    const size_t first = results->sample_first[case_index];
-    const size_t end = results->sample_first[case_index + 1];
-    size_t count = 0;
-    double *values = calloc(end - first + 1, sizeof *values);
-    if (values == NULL)
-        return NAN;
-    for (size_t i = first; i < end; i++)
-        if (is_metric(results, results->sample_rows[i], name))
-            values[count++] = results->sample_value[results->sample_rows[i]];
-    const double median = stats_median(values, count);
-    free(values);
-    return median;
-}
-
-double result_files_metric(const fm_result_files *results, const fm_case_row *result,
-                           const char *name)
-{
-    if (strcmp(name, "total_rmse") == 0)
-        return result->total_rmse;
-    for (size_t i = 0; i < COLUMN_COUNT; i++)
-        if (!columns[i].is_text && strcmp(columns[i].name, name) == 0)
-            return *(const double *)(const void *)((const char *)result + columns[i].offset);
-    return sample_median(results, (size_t)(result - results->cases), name);
-}
-
-/* One metric of each frame of a case, summed with others. */
-typedef struct frame_sums {
-    uint64_t *frames;
-    double *values;
-    uint32_t *launches;
-    size_t count;
-} frame_sums;
-
-static void add_frame(frame_sums *sums, uint64_t frame, double value)
-{
-    size_t i = 0;
-    while (i < sums->count && sums->frames[i] != frame)
-        i++;
-    if (i == sums->count) {
-        sums->frames[i] = frame;
-        sums->values[i] = 0.0;
-        sums->launches[i] = (uint32_t)(frame >> 32);
-        sums->count++;
-    }
-    sums->values[i] += value;
-}
-
-/* Adds the frames' values of one metric; false: it has none by frame. */
-static bool add_metric(frame_sums *sums, const fm_result_files *results, size_t case_index,
-                       const char *name)
-{
-    bool has_any = false;
-    for (size_t i = results->sample_first[case_index]; i < results->sample_first[case_index + 1];
-         i++) {
-        const uint32_t row = results->sample_rows[i];
-        if (results->sample_frame[row] == FM_SAMPLE_OF_CASE || !is_metric(results, row, name))
+    for (size_t i = 0; i < COLUMN_COUNT; i++) {
+        if (columns[i].is_text || strcmp(columns[i].name, name) != 0)
             continue;
-        add_frame(sums, results->sample_frame[row], results->sample_value[row]);
-        has_any = true;
+        *value = *(const double *)(const void *)((const char *)result + columns[i].offset);
+        return true;
     }
-    return has_any;
-}
-
-static fm_interval interval_of(const frame_sums *sums, double constant)
-{
-    uint32_t group_count = 1;
-    for (size_t i = 0; i < sums->count; i++)
-        if (sums->launches[i] >= group_count)
-            group_count = sums->launches[i] + 1;
-    const fm_samples samples = { sums->values, sums->launches, sums->count, group_count };
-    fm_interval interval = stats_bootstrap(&samples, 1);
-    interval.median += constant;
-    interval.low += constant;
-    interval.high += constant;
-    return interval;
-}
-
-fm_interval result_files_interval(size_t *sample_count, const fm_result_files *results,
-                                  const fm_case_row *result, const char *const *names,
-                                  size_t name_count)
-{
-    const size_t index = (size_t)(result - results->cases);
-    const size_t room = results->sample_first[index + 1] - results->sample_first[index] + 1;
-    frame_sums sums = { calloc(room, sizeof(uint64_t)), calloc(room, sizeof(double)),
-                        calloc(room, sizeof(uint32_t)), 0 };
-    double constant = 0.0;
-    size_t found = 0;
-    fm_interval interval = { NAN, NAN, NAN };
-    *sample_count = 0;
-    if (sums.frames == NULL || sums.values == NULL || sums.launches == NULL)
-        goto out;
-    for (size_t i = 0; i < name_count; i++) {
-        if (add_metric(&sums, results, index, names[i])) {
-            found++;
-            continue;
-        }
-        const double value = result_files_metric(results, result, names[i]);
-        constant += isnan(value) ? 0.0 : value;
-        found += isnan(value) ? 0 : 1;
-    }
-    *sample_count = sums.count;
-    if (sums.count > 0)
-        interval = interval_of(&sums, constant);
-    else if (found > 0)
-        interval = (fm_interval){ constant, constant, constant };
-    if (name_count == 1 && sums.count == 0 && strcmp(names[0], "frame_ms") == 0)
-        interval = (fm_interval){ result->frame_ms, result->frame_ms_low, result->frame_ms_high };
-out:
-    free(sums.frames);
-    free(sums.values);
-    free(sums.launches);
-    return interval;
+    return false;
 }

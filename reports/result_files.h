@@ -1,4 +1,5 @@
-/* The result files of one directory, read and checked: manifest.json, summary.csv, samples.csv. */
+/* The result files of one directory, read and checked: manifest.json, summary.csv, samples.csv,
+ * and figures.csv where there is one. */
 #ifndef FM_RESULT_FILES_H
 #define FM_RESULT_FILES_H
 
@@ -26,6 +27,7 @@ typedef struct fm_case_row {
     double total_rmse;      /* from samples.csv; rmse where the run has none */
     fm_case_status outcome; /* of the word `status` */
     fm_method_info look;
+    uint64_t figures; /* bit i: figure_names[i] holds it */
     bool is_ok;
     bool is_measured; /* has a time, and its error: ok, or wrong_image */
     bool is_software; /* the device */
@@ -34,10 +36,15 @@ typedef struct fm_case_row {
 /* The frame of a number that holds for a case as a whole. */
 #define FM_SAMPLE_OF_CASE UINT64_MAX
 
+enum { FM_RESULT_FIGURES = 64 };
+
 typedef struct fm_result_files {
     const char *directory; /* borrowed */
     fm_provenance *manifest;
     fm_table *summary, *samples;
+    fm_table *figures; /* figures.csv; NULL: there is none */
+    const char *figure_names[FM_RESULT_FIGURES];
+    size_t figure_count;
     fm_case_row *cases;
     size_t count;
     /* [samples->row_count]: index into cases; UINT32_MAX: none, or marked off_clock */
@@ -53,8 +60,14 @@ typedef struct fm_result_files {
 fm_status result_files_read(fm_result_files **results, const char *directory, fm_error *err);
 void result_files_close(fm_result_files *results);
 
-/* Any metric of a case: a column of summary.csv, else the median of its samples of that name; NAN
- * when there is none. */
+/* The bit of a figure in fm_case_row.figures; 0: figures.csv does not name it. */
+uint64_t result_files_figure(const fm_result_files *results, const char *id);
+
+/* The number column of that name; false: there is none. */
+bool result_files_number(double *value, const fm_case_row *result, const char *name);
+
+/* Any metric of a case: fps, mib (bytes_allocated) or fps_per_mib, a column of summary.csv, else
+ * the median of its samples of that name; NAN when there is none. */
 double result_files_metric(const fm_result_files *results, const fm_case_row *result,
                            const char *name);
 

@@ -17,6 +17,8 @@ static const double few_samples_share = 0.15; /* what timings of one case scatte
 static bool is_time(const fm_name_list *metrics)
 {
     for (size_t i = 0; i < metrics->count; i++) {
+        if (strncmp(metrics->names[i], "fps", 3) == 0)
+            return true;
         const size_t length = strlen(metrics->names[i]);
         if (length > 3 && strcmp(metrics->names[i] + length - 3, "_ms") == 0)
             return true;

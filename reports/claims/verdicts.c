@@ -43,11 +43,12 @@ static void find_devices(verdicts_job *job)
 /* The figure's own cases on this device. */
 static void choose_cases(const verdicts_job *job, const char *device)
 {
+    const fm_figure_cases cases = figure_cases(job->results, job->figure);
     for (size_t i = 0; i < job->results->count; i++) {
         const fm_case_row *result = &job->results->cases[i];
         const bool is_here =
             strcmp(result->device_name, device) == 0 || result->device_name[0] == '\0';
-        job->takes[i] = is_here && figure_takes_case(result, job->figure);
+        job->takes[i] = is_here && figure_takes_case(result, &cases);
     }
 }
 

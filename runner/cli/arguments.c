@@ -252,22 +252,28 @@ static fm_status merge(fm_plan *plan, const fm_plan *more, fm_error *err)
     return FM_OK;
 }
 
-fm_status arguments_plan(fm_plan *plan, fm_plugin_list *plugins, const fm_arguments *arguments,
-                         const char *const *specs, fm_error *err)
+fm_status arguments_expand(fm_plan *plan, const fm_plugin_list *plugins,
+                           const fm_arguments *arguments, const char *spec, fm_error *err)
 {
-    fm_plan_request request = {
+    const fm_plan_request request = {
+        .spec = spec,
         .methods = names_list(&arguments->methods),
         .scenes = names_list(&arguments->scenes),
         .devices = names_list(&arguments->devices),
         .feeds = names_list(&arguments->feeds),
         .axes = names_list(&arguments->axes),
     };
+    return plan_expand(plan, &request, plugins, err);
+}
+
+fm_status arguments_plan(fm_plan *plan, fm_plugin_list *plugins, const fm_arguments *arguments,
+                         const char *const *specs, fm_error *err)
+{
     *plan = (fm_plan){ 0 };
     fm_status status = plugin_list_open(plugins, names_list(&arguments->plugin_folders), err);
     for (size_t i = 0; status == FM_OK && (i == 0 || specs[i] != NULL); i++) {
         fm_plan one = { 0 };
-        request.spec = specs[i];
-        status = plan_expand(&one, &request, plugins, err);
+        status = arguments_expand(&one, plugins, arguments, specs[i], err);
         if (status == FM_OK)
             status = merge(plan, &one, err);
         plan_free(&one);

@@ -62,7 +62,7 @@ typedef struct fm_arguments {
     const char *directory; /* -o; NULL: not given */
     uint32_t timeout_s;
     uint64_t memory_bytes, seed;
-    bool has_seed, no_images, no_report, validation, no_timers, quiet, json, smoke;
+    bool has_seed, no_images, no_report, validation, no_timers, quiet, json, smoke, large;
 } fm_arguments;
 
 /* Options that these subcommands have in common; children of their argp. */
@@ -88,6 +88,10 @@ void arguments_free(fm_arguments *arguments);
 fm_status arguments_plan(fm_plan *plan, fm_plugin_list *plugins, const fm_arguments *arguments,
                          const char *const *specs, fm_error *err);
 
+/* One spec alone, for plugins that are open. */
+fm_status arguments_expand(fm_plan *plan, const fm_plugin_list *plugins,
+                           const fm_arguments *arguments, const char *spec, fm_error *err);
+
 /* The folder of this program. */
 fm_status program_folder(char folder[FM_PATH_MAX_BYTES], fm_error *err);
 
@@ -104,10 +108,13 @@ typedef struct fm_figure_list {
 } fm_figure_list;
 fm_status figures_list(fm_figure_list *list, fm_error *err);
 void figures_free(fm_figure_list *list);
-/* Writes what a figure runs as a spec file: its `run`, with `smoke` over it if so asked.
- * FM_UNSUPPORTED: the figure has no `run`. */
-fm_status figure_write_spec(const char *path, const fm_figure *figure, bool is_smoke,
-                            fm_error *err);
+/* How much of a figure is measured: its `run`; `smoke` over it; or `large` too, which takes a
+ * software rasteriser hours. */
+typedef enum fm_figure_size { FM_FIGURE_FULL, FM_FIGURE_SMOKE, FM_FIGURE_LARGE } fm_figure_size;
+/* Writes what a figure runs as spec files in folder, one for each block of `run` (a mapping, or a
+ * list of them), and adds their paths. FM_UNSUPPORTED: the figure has no `run`. */
+fm_status figure_write_specs(fm_names *paths, const char *folder, const fm_figure *figure,
+                             fm_figure_size size, fm_error *err);
 
 /* Plans are run, reported and summed up: the end of run and reproduce. figures ends with NULL. */
 int cli_run_plan(const fm_arguments *arguments, const char *directory, const fm_plan *plan,

@@ -149,32 +149,60 @@ static fm_status require_map(const fm_yaml *tree, const char *key, const char *p
 {
     if (tree == NULL || tree->kind == FM_YAML_MAP)
         return FM_OK;
-    return fm_fail(err, FM_INVALID, "%s:%u: '%s' is not a mapping", path, tree->line, key);
+    return fm_fail(err, FM_INVALID, "%s:%u: '%s': a mapping is expected", path, tree->line, key);
 }
 
-fm_status figure_write_spec(const char *path, const fm_figure *figure, bool is_smoke, fm_error *err)
+/* One block as a spec file. */
+static fm_status write_spec(const char *path, const fm_figure *figure, const fm_yaml *block,
+                            const fm_yaml *smoke, fm_error *err)
+{
+    fm_text text = { 0 };
+    fm_status status = require_map(block, "run", figure->path, err);
+    if (status != FM_OK)
+        return status;
+    text_add(&text, "# %s%s\n", figure->id, smoke != NULL ? ", smoke" : "");
+    add_keys(&text, block, smoke);
+    add_keys(&text, smoke, NULL);
+    status = text.failed ? fm_fail(err, FM_NO_MEMORY, "%s: no memory", path)
+                         : text_write_file(path, text.bytes, text.length, err);
+    text_free(&text);
+    return status;
+}
+
+/* The blocks under one key: a mapping is one block. */
+static fm_status write_blocks(fm_names *paths, const char *folder, const fm_figure *figure,
+                              const fm_yaml *blocks, const fm_yaml *smoke, fm_error *err)
+{
+    char path[2 * FM_PATH_MAX_BYTES];
+    const bool is_list = blocks != NULL && blocks->kind == FM_YAML_LIST;
+    const size_t count = is_list ? blocks->count : blocks != NULL;
+    fm_status status = FM_OK;
+    for (size_t i = 0; i < count && status == FM_OK; i++) {
+        const fm_yaml *block = is_list ? &blocks->items[i] : blocks;
+        snprintf(path, sizeof path, "%s/%s-run%zu.yml", folder, figure->id, paths->count + 1);
+        status = write_spec(path, figure, block, smoke, err);
+        if (status == FM_OK)
+            status = names_add(paths, path, err);
+    }
+    return status;
+}
+
+fm_status figure_write_specs(fm_names *paths, const char *folder, const fm_figure *figure,
+                             fm_figure_size size, fm_error *err)
 {
     fm_yaml *root = NULL;
-    fm_text text = { 0 };
     fm_status status = yaml_tree_read(&root, figure->path, err);
     if (status != FM_OK)
         return status;
     const fm_yaml *run = yaml_tree_find(root, "run");
-    const fm_yaml *smoke = is_smoke ? yaml_tree_find(root, "smoke") : NULL;
-    status = require_map(run, "run", figure->path, err);
-    if (status == FM_OK)
-        status = require_map(smoke, "smoke", figure->path, err);
+    const fm_yaml *smoke = size == FM_FIGURE_SMOKE ? yaml_tree_find(root, "smoke") : NULL;
+    status = require_map(smoke, "smoke", figure->path, err);
     if (status == FM_OK && run == NULL)
         status = fm_fail(err, FM_UNSUPPORTED, "%s: has no 'run': nothing to measure", figure->path);
-    if (status != FM_OK)
-        goto out;
-    text_add(&text, "# %s%s\n", figure->id, smoke != NULL ? ", smoke" : "");
-    add_keys(&text, run, smoke);
-    add_keys(&text, smoke, NULL);
-    status = text.failed ? fm_fail(err, FM_NO_MEMORY, "%s: no memory", path)
-                         : text_write_file(path, text.bytes, text.length, err);
-out:
-    text_free(&text);
+    if (status == FM_OK)
+        status = write_blocks(paths, folder, figure, run, smoke, err);
+    if (status == FM_OK && size == FM_FIGURE_LARGE)
+        status = write_blocks(paths, folder, figure, yaml_tree_find(root, "large"), NULL, err);
     yaml_tree_free(root);
     return status;
 }

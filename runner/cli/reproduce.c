@@ -7,10 +7,11 @@
 #include "cli.h"
 #include "memory_table.h"
 
-enum { KEY_SMOKE = 512 };
+enum { KEY_SMOKE = 512, KEY_LARGE };
 
 static const struct argp_option options[] = {
     { "smoke", KEY_SMOKE, NULL, 0, "the figure's own small variant: minutes, no GPU needed", 0 },
+    { "large", KEY_LARGE, NULL, 0, "also what takes hours without a GPU", 0 },
     { 0 },
 };
 
@@ -21,7 +22,12 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_SMOKE:
         arguments->smoke = true;
         return 0;
+    case KEY_LARGE:
+        arguments->large = true;
+        return 0;
     case ARGP_KEY_END:
+        if (arguments->smoke && arguments->large)
+            argp_error(state, "--smoke or --large, not both");
         if (arguments->positional.count == 0)
             argp_error(state, "which figure? `fragmark list figures` names them");
         return 0;
@@ -97,32 +103,40 @@ static fm_status choose(bool *is_chosen, const fm_names *wanted, const fm_figure
 typedef struct spec_files {
     char folder[FM_PATH_MAX_BYTES];
     fm_names ids, paths;
+    fm_names owners; /* of each path: a figure's id */
 } spec_files;
+
+static fm_figure_size size_of(const fm_arguments *arguments)
+{
+    return arguments->smoke ? FM_FIGURE_SMOKE : arguments->large ? FM_FIGURE_LARGE : FM_FIGURE_FULL;
+}
+
+static fm_status write_figure(spec_files *specs, const fm_arguments *arguments,
+                              const fm_figure *figure, fm_error *err)
+{
+    bool is_table = false;
+    fm_status status = memory_table_is_in(&is_table, figure->path, err);
+    if (status == FM_OK)
+        status = figure_write_specs(&specs->paths, specs->folder, figure, size_of(arguments), err);
+    if (status == FM_UNSUPPORTED) {
+        if (!is_table)
+            fprintf(arguments->cli->talk, "left out: %s\n", err->message);
+        return is_table ? names_add(&specs->ids, figure->id, err) : FM_OK;
+    }
+    if (status == FM_OK)
+        status = names_add(&specs->ids, figure->id, err);
+    while (specs->owners.count < specs->paths.count && status == FM_OK)
+        status = names_add(&specs->owners, figure->id, err);
+    return status;
+}
 
 static fm_status write_specs(spec_files *specs, const fm_arguments *arguments,
                              const fm_figure_list *list, const bool *is_chosen, fm_error *err)
 {
-    char path[FM_PATH_MAX_BYTES + 80];
     fm_status status = FM_OK;
-    for (size_t i = 0; i < list->count && status == FM_OK; i++) {
-        if (!is_chosen[i])
-            continue;
-        snprintf(path, sizeof path, "%s/%s.yml", specs->folder, list->figures[i].id);
-        bool is_table = false;
-        status = memory_table_is_in(&is_table, list->figures[i].path, err);
-        if (status == FM_OK)
-            status = figure_write_spec(path, &list->figures[i], arguments->smoke, err);
-        if (status == FM_UNSUPPORTED) {
-            if (!is_table)
-                fprintf(arguments->cli->talk, "left out: %s\n", err->message);
-            status = FM_OK;
-            continue;
-        }
-        if (status == FM_OK)
-            status = names_add(&specs->ids, list->figures[i].id, err);
-        if (status == FM_OK)
-            status = names_add(&specs->paths, path, err);
-    }
+    for (size_t i = 0; i < list->count && status == FM_OK; i++)
+        if (is_chosen[i])
+            status = write_figure(specs, arguments, &list->figures[i], err);
     return status;
 }
 
@@ -147,6 +161,7 @@ static void close_specs(spec_files *specs)
         rmdir(specs->folder);
     names_free(&specs->ids);
     names_free(&specs->paths);
+    names_free(&specs->owners);
 }
 
 /* DIR/specs: what was run, for the record. */
@@ -158,11 +173,40 @@ static void keep_specs(const spec_files *specs, const char *directory)
     for (size_t i = 0; i < specs->paths.count; i++) {
         char *bytes = NULL;
         size_t count = 0;
-        snprintf(path, sizeof path, "%s/specs/%s.yml", directory, specs->ids.names[i]);
+        snprintf(path, sizeof path, "%s/specs%s", directory, strrchr(specs->paths.names[i], '/'));
         if (text_read_file(&bytes, &count, specs->paths.names[i], 1u << 20, NULL) == FM_OK)
             text_write_file(path, bytes, count, NULL);
         free(bytes);
     }
+}
+
+/* DIR/figures.csv: which case belongs to which figure; one may belong to several. A run that goes
+ * on has it. */
+static fm_status write_figure_cases(const char *directory, const spec_files *specs,
+                                    const fm_arguments *arguments, const fm_plugin_list *plugins,
+                                    fm_error *err)
+{
+    char path[2 * FM_PATH_MAX_BYTES];
+    fm_text csv = { 0 };
+    fm_status status = FM_OK;
+    snprintf(path, sizeof path, "%s/figures.csv", directory);
+    if (access(path, F_OK) == 0)
+        return FM_OK;
+    text_add(&csv, "figure,case_id\n");
+    for (size_t i = 0; i < specs->paths.count && status == FM_OK; i++) {
+        fm_plan plan = { 0 };
+        status = arguments_expand(&plan, plugins, arguments, specs->paths.names[i], err);
+        for (size_t j = 0; j < plan.count && status == FM_OK; j++)
+            text_add(&csv, "%s,%s\n", specs->owners.names[i], plan.cases[j].id);
+        plan_free(&plan);
+    }
+    if (status == FM_OK && mkdir(directory, 0777) != 0 && errno != EEXIST)
+        status = fm_fail(err, FM_IO, "%s: %s", directory, strerror(errno));
+    if (status == FM_OK)
+        status = csv.failed ? fm_fail(err, FM_NO_MEMORY, "%s", path)
+                            : text_write_file(path, csv.bytes, csv.length, err);
+    text_free(&csv);
+    return status;
 }
 
 static int run_specs(const spec_files *specs, const fm_arguments *arguments, const char *command)
@@ -173,7 +217,8 @@ static int run_specs(const spec_files *specs, const fm_arguments *arguments, con
     fm_plugin_list plugins = { 0 };
     fm_error err = { 0 };
     cli_directory(directory, arguments);
-    if (arguments_plan(&plan, &plugins, arguments, names_list(&specs->paths), &err) != FM_OK)
+    if (arguments_plan(&plan, &plugins, arguments, names_list(&specs->paths), &err) != FM_OK ||
+        write_figure_cases(directory, specs, arguments, &plugins, &err) != FM_OK)
         code = cli_fail(arguments->cli, &err);
     else
         code =
@@ -233,11 +278,11 @@ static fm_status reproduce(int *code, const spec_files *specs, const fm_argument
     fm_text csv = { 0 };
     fm_memory_verdicts verdicts = { 0 };
     fm_status status = make_tables(&csv, &verdicts, arguments, list, is_chosen, err);
-    if (status == FM_OK && csv.length == 0 && specs->ids.count == 0)
+    if (status == FM_OK && csv.length == 0 && specs->paths.count == 0)
         status = fm_fail(err, FM_INVALID, "none of these figures has anything to run");
     if (status == FM_OK && csv.length > 0)
-        status = keep_tables(&csv, &verdicts, arguments, specs->ids.count == 0, err);
-    if (status == FM_OK && specs->ids.count > 0)
+        status = keep_tables(&csv, &verdicts, arguments, specs->paths.count == 0, err);
+    if (status == FM_OK && specs->paths.count > 0)
         *code = run_specs(specs, arguments, command);
     text_free(&csv);
     return status;

@@ -1,0 +1,175 @@
+/* Numbers of a case: columns of summary.csv, samples, and what follows from them. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "result_files.h"
+
+/* What papers plot instead of times. */
+typedef struct derived {
+    const char *name;
+    double (*value)(double frame_ms, const fm_case_row *result);
+} derived;
+
+static double fps(double frame_ms, const fm_case_row *result)
+{
+    (void)result;
+    return 1e3 / frame_ms;
+}
+
+static double mib(double frame_ms, const fm_case_row *result)
+{
+    (void)frame_ms;
+    return result->bytes_allocated / 1048576.0;
+}
+
+static double fps_per_mib(double frame_ms, const fm_case_row *result)
+{
+    return fps(frame_ms, result) / mib(frame_ms, result);
+}
+
+static const derived *derived_find(const char *name)
+{
+    static const derived all[] = { { "fps", fps }, { "mib", mib }, { "fps_per_mib", fps_per_mib } };
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        if (strcmp(all[i].name, name) == 0)
+            return &all[i];
+    return NULL;
+}
+
+/* A long frame is few frames a second: the ends of the interval change places. */
+static fm_interval derive(const derived *of, const fm_case_row *result, fm_interval frame_ms)
+{
+    const double a = of->value(frame_ms.low, result), b = of->value(frame_ms.high, result);
+    return (fm_interval){ of->value(frame_ms.median, result), fmin(a, b), fmax(a, b) };
+}
+
+static bool is_metric(const fm_result_files *results, size_t row, const char *name)
+{
+    return results->sample_case[row] != UINT32_MAX && isfinite(results->sample_value[row]) &&
+           strcmp(table_cell(results->samples, row, results->sample_metric), name) == 0;
+}
+
+/* Median of a case's samples of one metric. */
+static double sample_median(const fm_result_files *results, size_t case_index, const char *name)
+{
+    const size_t first = results->sample_first[case_index];
+    const size_t end = results->sample_first[case_index + 1];
+    size_t count = 0;
+    double *values = calloc(end - first + 1, sizeof *values);
+    if (values == NULL)
+        return NAN;
+    for (size_t i = first; i < end; i++)
+        if (is_metric(results, results->sample_rows[i], name))
+            values[count++] = results->sample_value[results->sample_rows[i]];
+    const double median = stats_median(values, count);
+    free(values);
+    return median;
+}
+
+double result_files_metric(const fm_result_files *results, const fm_case_row *result,
+                           const char *name)
+{
+    if (strcmp(name, "total_rmse") == 0)
+        return result->total_rmse;
+    double value;
+    const derived *of = derived_find(name);
+    if (of != NULL)
+        return of->value(result->frame_ms, result);
+    if (result_files_number(&value, result, name))
+        return value;
+    return sample_median(results, (size_t)(result - results->cases), name);
+}
+
+/* One metric of each frame of a case, summed with others. */
+typedef struct frame_sums {
+    uint64_t *frames;
+    double *values;
+    uint32_t *launches;
+    size_t count;
+} frame_sums;
+
+static void add_frame(frame_sums *sums, uint64_t frame, double value)
+{
+    size_t i = 0;
+    while (i < sums->count && sums->frames[i] != frame)
+        i++;
+    if (i == sums->count) {
+        sums->frames[i] = frame;
+        sums->values[i] = 0.0;
+        sums->launches[i] = (uint32_t)(frame >> 32);
+        sums->count++;
+    }
+    sums->values[i] += value;
+}
+
+/* Adds the frames' values of one metric; false: it has none by frame. */
+static bool add_metric(frame_sums *sums, const fm_result_files *results, size_t case_index,
+                       const char *name)
+{
+    bool has_any = false;
+    for (size_t i = results->sample_first[case_index]; i < results->sample_first[case_index + 1];
+         i++) {
+        const uint32_t row = results->sample_rows[i];
+        if (results->sample_frame[row] == FM_SAMPLE_OF_CASE || !is_metric(results, row, name))
+            continue;
+        add_frame(sums, results->sample_frame[row], results->sample_value[row]);
+        has_any = true;
+    }
+    return has_any;
+}
+
+static fm_interval interval_of(const frame_sums *sums, double constant)
+{
+    uint32_t group_count = 1;
+    for (size_t i = 0; i < sums->count; i++)
+        if (sums->launches[i] >= group_count)
+            group_count = sums->launches[i] + 1;
+    const fm_samples samples = { sums->values, sums->launches, sums->count, group_count };
+    fm_interval interval = stats_bootstrap(&samples, 1);
+    interval.median += constant;
+    interval.low += constant;
+    interval.high += constant;
+    return interval;
+}
+
+fm_interval result_files_interval(size_t *sample_count, const fm_result_files *results,
+                                  const fm_case_row *result, const char *const *names,
+                                  size_t name_count)
+{
+    static const char *const frame[] = { "frame_ms" };
+    const derived *of = name_count == 1 ? derived_find(names[0]) : NULL;
+    if (of != NULL)
+        return derive(of, result, result_files_interval(sample_count, results, result, frame, 1));
+    const size_t index = (size_t)(result - results->cases);
+    const size_t room = results->sample_first[index + 1] - results->sample_first[index] + 1;
+    frame_sums sums = { calloc(room, sizeof(uint64_t)), calloc(room, sizeof(double)),
+                        calloc(room, sizeof(uint32_t)), 0 };
+    double constant = 0.0;
+    size_t found = 0;
+    fm_interval interval = { NAN, NAN, NAN };
+    *sample_count = 0;
+    if (sums.frames == NULL || sums.values == NULL || sums.launches == NULL)
+        goto out;
+    for (size_t i = 0; i < name_count; i++) {
+        if (add_metric(&sums, results, index, names[i])) {
+            found++;
+            continue;
+        }
+        const double value = result_files_metric(results, result, names[i]);
+        constant += isnan(value) ? 0.0 : value;
+        found += isnan(value) ? 0 : 1;
+    }
+    *sample_count = sums.count;
+    if (sums.count > 0)
+        interval = interval_of(&sums, constant);
+    else if (found > 0)
+        interval = (fm_interval){ constant, constant, constant };
+    if (name_count == 1 && sums.count == 0 && strcmp(names[0], "frame_ms") == 0)
+        interval = (fm_interval){ result->frame_ms, result->frame_ms_low, result->frame_ms_high };
+out:
+    free(sums.frames);
+    free(sums.values);
+    free(sums.launches);
+    return interval;
+}
