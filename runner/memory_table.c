@@ -1,5 +1,6 @@
 #include "memory_table.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -77,13 +78,11 @@ static fm_status read_whole(uint64_t *number, const fm_yaml *map, const char *ke
     return FM_OK;
 }
 
-/* The workload of a column; its totals are `totals`, filled here. */
-static fm_status read_workload(fm_workload *workload, uint64_t totals[FM_MAX_TOTALS],
-                               const fm_yaml *column, const table_job *job)
+/* The workload of a column, but for its totals. */
+static fm_status read_workload(fm_workload *workload, const fm_yaml *column, const table_job *job)
 {
     uint64_t width = 0, height = 0, k = 0, n = 0;
     fm_status status = read_whole(&width, column, "width_px", 65536, job);
-    *workload = (fm_workload){ .totals = totals, .option = default_option };
     if (status == FM_OK)
         status = read_whole(&height, column, "height_px", 65536, job);
     if (status == FM_OK)
@@ -96,8 +95,21 @@ static fm_status read_workload(fm_workload *workload, uint64_t totals[FM_MAX_TOT
     workload->height_px = (uint32_t)height;
     workload->k = (uint32_t)k;
     workload->n = (uint32_t)n;
-    for (size_t i = 0; i < FM_MAX_TOTALS; i++)
+    return status;
+}
+
+/* Totals that size a buffer are all fragments, unless the column has them by name. */
+static fm_status read_totals(uint64_t totals[FM_MAX_TOTALS], const fm_yaml *column,
+                             const fm_workload *workload, const table_job *job)
+{
+    fm_status status = FM_OK;
+    const fm_yaml *named = yaml_tree_find(column, "totals");
+    for (size_t i = 0; i < FM_MAX_TOTALS && status == FM_OK; i++) {
+        const char *name = workload->runner->totals[i].name;
         totals[i] = workload->fragments;
+        if (name != NULL && yaml_tree_find(named, name) != NULL)
+            status = read_whole(&totals[i], named, name, UINT64_MAX / 2, job);
+    }
     return status;
 }
 
@@ -122,6 +134,8 @@ static const char *judge(fm_memory_verdicts *verdicts, double value, const char 
 {
     char alike[32];
     print_alike(alike, value, printed);
+    if (printed[0] == '\0')
+        return "not printed";
     if (strcmp(alike, printed) == 0) {
         verdicts->exact++;
         return "exact";
@@ -144,21 +158,23 @@ typedef struct table_row {
 
 static fm_status add_cell(const table_job *job, const table_row *row, size_t index)
 {
-    fm_workload workload;
     uint64_t totals[FM_MAX_TOTALS];
+    fm_workload workload = { .totals = totals, .option = default_option, .runner = row->method };
     const char *title;
-    double value;
+    double value = NAN;
     const fm_yaml *column = &job->columns->items[index];
     const fm_yaml *printed = &row->printed->items[index];
     fm_status status = read_text(&title, column, "title", true, job);
     if (status == FM_OK)
-        status = read_workload(&workload, totals, column, job);
+        status = read_workload(&workload, column, job);
+    if (status == FM_OK)
+        status = read_totals(totals, column, &workload, job);
     if (status != FM_OK)
         return status;
-    if (printed->kind != FM_YAML_SCALAR || !text_to_double(&value, printed->text))
+    if (printed->kind != FM_YAML_SCALAR ||
+        (printed->text[0] != '\0' && !text_to_double(&value, printed->text)))
         return fm_fail(job->err, FM_INVALID, "%s:%u: 'printed': numbers are expected", job->path,
                        printed->line);
-    workload.runner = row->method;
     const double pixels = (double)workload.width_px * workload.height_px;
     const double ours = (double)formula_bytes(row->method, &workload) +
                         (job->added_per_pixel + row->added_per_pixel) * pixels;
@@ -169,8 +185,10 @@ static fm_status add_cell(const table_job *job, const table_row *row, size_t ind
     csv_add(job->csv, title);
     text_add(job->csv, ",%s,", row->method->id);
     csv_add(job->csv, row->title);
-    text_add(job->csv, ",%.0f,%.4f,%s,%.4f,%s,", ours, ours / mib, printed->text,
-             ours / mib - value, verdict);
+    text_add(job->csv, ",%.0f,%.4f,%s,", ours, ours / mib, printed->text);
+    if (printed->text[0] != '\0')
+        text_add(job->csv, "%.4f", ours / mib - value);
+    text_add(job->csv, ",%s,", verdict);
     csv_add(job->csv, row->why);
     text_add(job->csv, "\n");
     return FM_OK;

@@ -9,10 +9,11 @@
  *         title: Linked Lists        as the paper has it
  *         added_per_pixel: 4         bytes of the published method that ours does without, or -
  *         why: ...                   ... what they are
- *         printed: ["8.73", "22.35", "51.7"]      MiB, as printed
+ *         printed: ["8.73", "22.35", "51.7"]      MiB, as printed; "": not printed
  *         errata: [51.7]             printed values that the paper's own formula does not give
  *
- * Totals that size a buffer are taken to be all fragments, F. */
+ * Totals that size a buffer are taken to be all fragments, F, but for those that a column names:
+ * totals: { kept: 400 }. */
 #ifndef FM_MEMORY_TABLE_H
 #define FM_MEMORY_TABLE_H
 

@@ -224,11 +224,14 @@ static double memory_value(const fm_selection *selection, const fm_claim_rows *r
     return sum;
 }
 
-/* Of the same column of the paper's table, unless the selection names one. */
+/* Of the same column of the paper's table, unless the selection names one; of the same row, if it
+ * names nothing. */
 static double memory_partner(const fm_selection *selection, const fm_claim_rows *rows, size_t row)
 {
     const size_t workload = table_column(rows->memory, "workload");
     const fm_name_list own = own_columns(selection);
+    if (own.count == 0)
+        return memory_value(selection, rows, row);
     for (size_t i = 0; i < rows->memory->row_count; i++)
         if (match_memory_row(selection, rows, i) &&
             (name_list_names(&own, "workload") ||
