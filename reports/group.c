@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "settings.h"
+#include "workload.h"
 
 /* "options" also holds keys of the scene that have no column: they belong to the workload. Copies
  * the pairs of one sort, but for those named in `without`, which may be NULL. */
@@ -48,31 +49,6 @@ bool group_same_scene_options(const fm_case_row *a, const fm_case_row *b,
 bool group_same_own_options(const fm_case_row *a, const fm_case_row *b, const fm_name_list *without)
 {
     return same_options(a, b, false, without);
-}
-
-static bool same_number(double a, double b)
-{
-    return a == b || (isnan(a) && isnan(b));
-}
-
-/* A case that was never opened on its device has not got the device's name. */
-static bool same_device(const fm_case_row *a, const fm_case_row *b)
-{
-    return strcmp(a->device, b->device) == 0 &&
-           (a->device_name[0] == '\0' || b->device_name[0] == '\0' ||
-            strcmp(a->device_name, b->device_name) == 0);
-}
-
-/* n of a mesh is known only from truth, the same for all; n of r * k layers grows with k. */
-static bool same_workload(const fm_case_row *a, const fm_case_row *b)
-{
-    return strcmp(a->scene, b->scene) == 0 && same_device(a, b) && strcmp(a->feed, b->feed) == 0 &&
-           strcmp(a->order, b->order) == 0 && strcmp(a->seed, b->seed) == 0 &&
-           same_number(a->width_px, b->width_px) && same_number(a->height_px, b->height_px) &&
-           (isnan(a->n) || isnan(b->n) || a->n == b->n) && same_number(a->r, b->r) &&
-           same_number(a->pixel_density, b->pixel_density) &&
-           same_number(a->fragment_probability, b->fragment_probability) &&
-           same_number(a->tessellation, b->tessellation) && same_options(a, b, true, NULL);
 }
 
 bool group_same_series(const fm_case_row *a, const fm_case_row *b)
@@ -123,7 +99,7 @@ static void add_number(char *text, size_t room, const char *name, double value)
 {
     size_t used = strlen(text);
     if (!isnan(value))
-        snprintf(text + used, room - used, ", %s %.6g", name, value);
+        snprintf(text + used, room - used, "%s%s %.6g", used > 0 ? ", " : "", name, value);
 }
 
 bool group_is_stand_in(const char *scene)
@@ -145,20 +121,29 @@ static const fm_case_row *best_known(const fm_group *group)
     return group->cases[0];
 }
 
-static void describe(fm_group *group)
+static void describe(fm_group *group, const fm_name_list *free_columns)
 {
     const fm_case_row *one = best_known(group);
     snprintf(group->title, sizeof group->title, "%s%.60s, %.20s%s%.50s, %.30s",
              group_is_stand_in(one->scene) ? "stand-in for " : "", one->scene, one->device,
              one->device_name[0] != '\0' ? ": " : "", one->device_name, one->feed);
-    snprintf(group->workload, sizeof group->workload, "%.0f x %.0f pixels", one->width_px,
-             one->height_px);
+    const struct {
+        const char *column, *title;
+        double value;
+    } numbers[] = {
+        { "n", "n =", one->n },
+        { "r", "r =", one->r },
+        { "pixel_density", "pixel density", one->pixel_density },
+        { "fragment_probability", "survival", one->fragment_probability },
+        { "tessellation", "tessellation", one->tessellation },
+    };
+    if (!name_list_names(free_columns, "width_px"))
+        snprintf(group->workload, sizeof group->workload, "%.0f x %.0f pixels", one->width_px,
+                 one->height_px);
     size_t room = sizeof group->workload;
-    add_number(group->workload, room, "n =", one->n);
-    add_number(group->workload, room, "r =", one->r);
-    add_number(group->workload, room, "pixel density", one->pixel_density);
-    add_number(group->workload, room, "survival", one->fragment_probability);
-    add_number(group->workload, room, "tessellation", one->tessellation);
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
+        if (!name_list_names(free_columns, numbers[i].column) && !(i == 0 && !isnan(one->r)))
+            add_number(group->workload, room, numbers[i].title, numbers[i].value);
     size_t used = strlen(group->workload);
     if (one->order[0] != '\0')
         snprintf(group->workload + used, room - used, ", order %s", one->order);
@@ -187,10 +172,11 @@ static void name_group(fm_groups *groups, size_t index)
         }
 }
 
-static fm_group *find_group(fm_groups *groups, const fm_case_row *result, size_t case_limit)
+static fm_group *find_group(fm_groups *groups, const fm_case_row *result, size_t case_limit,
+                            const fm_name_list *free_columns)
 {
     for (size_t i = 0; i < groups->count; i++)
-        if (same_workload(groups->groups[i].cases[0], result))
+        if (workload_same(groups->groups[i].cases[0], result, free_columns))
             return &groups->groups[i];
     fm_group *grown = reallocarray(groups->groups, groups->count + 1, sizeof *grown);
     if (grown == NULL)
@@ -200,15 +186,18 @@ static fm_group *find_group(fm_groups *groups, const fm_case_row *result, size_t
     return grown[groups->count].cases == NULL ? NULL : &grown[groups->count++];
 }
 
-fm_status groups_make(fm_groups *groups, const fm_result_files *results, fm_case_filter filter,
-                      const void *context, fm_error *err)
+fm_status groups_make(fm_groups *groups, const fm_result_files *results, const fm_groups_desc *desc,
+                      fm_error *err)
 {
+    fm_name_list free_columns = desc->free_columns;
+    if (free_columns.count < FM_NAME_LIST)
+        free_columns.names[free_columns.count++] = "k";
     *groups = (fm_groups){ 0 };
     for (size_t i = 0; i < results->count; i++) {
         const fm_case_row *result = &results->cases[i];
-        if (filter != NULL && !filter(result, context))
+        if (desc->filter != NULL && !desc->filter(result, desc->context))
             continue;
-        fm_group *group = find_group(groups, result, results->count);
+        fm_group *group = find_group(groups, result, results->count, &free_columns);
         if (group == NULL) {
             groups_free(groups);
             return fm_fail(err, FM_NO_MEMORY, "%zu cases", results->count);
@@ -219,7 +208,7 @@ fm_status groups_make(fm_groups *groups, const fm_result_files *results, fm_case
         fm_group *group = &groups->groups[i];
         /* NOLINTNEXTLINE(bugprone-sizeof-expression): pointers are what is sorted */
         qsort(group->cases, group->count, sizeof group->cases[0], compare_cases);
-        describe(group);
+        describe(group, &free_columns);
         name_group(groups, i);
     }
     return FM_OK;

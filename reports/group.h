@@ -18,11 +18,16 @@ typedef struct fm_groups {
     size_t count;
 } fm_groups;
 
-/* Which cases to take; NULL: all. */
 typedef bool (*fm_case_filter)(const fm_case_row *result, const void *context);
 
-fm_status groups_make(fm_groups *groups, const fm_result_files *results, fm_case_filter filter,
-                      const void *context, fm_error *err);
+typedef struct fm_groups_desc {
+    fm_case_filter filter;     /* which cases to take; NULL: all */
+    const void *context;       /* of the filter */
+    fm_name_list free_columns; /* in which cases of a group may differ, beside k */
+} fm_groups_desc;
+
+fm_status groups_make(fm_groups *groups, const fm_result_files *results, const fm_groups_desc *desc,
+                      fm_error *err);
 void groups_free(fm_groups *groups);
 
 /* "K+B-Array", with the options that tell two series of one method apart. */

@@ -8,12 +8,13 @@
 #include "claims/verdicts.h"
 #include "report.h"
 
-enum { EXIT_DONE = 0, EXIT_CLAIM = 1, EXIT_USAGE = 2, EXIT_DAMAGED = 8, FIGURES_MOST = 32 };
+enum { EXIT_DONE = 0, EXIT_CLAIM = 1, EXIT_USAGE = 2, EXIT_DAMAGED = 8, FIGURES_MOST = 64 };
 
 typedef struct arguments {
     const char *directory;
     const char *figures[FIGURES_MOST];
     size_t figure_count;
+    const char *reference; /* NULL: not given */
 } arguments;
 
 static error_t parse(int key, char *value, struct argp_state *state)
@@ -24,6 +25,9 @@ static error_t parse(int key, char *value, struct argp_state *state)
         if (given->figure_count == FIGURES_MOST)
             argp_error(state, "more than %d figures", FIGURES_MOST);
         given->figures[given->figure_count++] = value;
+        return 0;
+    case 'r':
+        given->reference = value;
         return 0;
     case ARGP_KEY_ARG:
         if (given->directory != NULL)
@@ -91,34 +95,75 @@ static fm_status read_figures(fm_paper_figure **figures, const arguments *given,
     return FM_OK;
 }
 
-/* claims.csv, where the figures make claims. */
-static fm_status judge_claims(size_t *required_failed, const fm_result_files *results,
-                              const fm_paper_figure *const *figures, const arguments *given,
+/* Another machine's results: a folder, or the name of one in reports/reference. */
+static fm_status open_reference(fm_result_files **reference, char path[1024],
+                                const arguments *given, fm_error *err)
+{
+    static const char *const folders[] = { FM_REFERENCE_SOURCE_DIR, FM_REFERENCE_INSTALL_DIR };
+    const char *name = given->reference != NULL ? given->reference : "h100";
+    *reference = NULL;
+    if (strcmp(name, "none") == 0)
+        return FM_OK;
+    if (strchr(name, '/') != NULL) {
+        snprintf(path, 1024, "%s", name);
+        return result_files_read(reference, path, err);
+    }
+    for (size_t i = 0; i < sizeof folders / sizeof folders[0]; i++) {
+        snprintf(path, 1024, "%s/%s", folders[i], name);
+        if (access(path, F_OK) == 0)
+            return result_files_read(reference, path, err);
+    }
+    return given->reference == NULL
+               ? FM_OK
+               : fm_fail(err, FM_INVALID, "no reference \"%s\" in %s", name, folders[0]);
+}
+
+/* Judges and writes claims.csv, where the figures make claims. */
+static fm_status judge_claims(fm_claim_results *verdicts, const fm_report_desc *report,
                               fm_error *err)
 {
     char path[1024];
-    fm_claim_results verdicts;
-    const fm_verdicts_desc desc = { .results = results,
-                                    .figures = figures,
-                                    .figure_count = given->figure_count };
-    fm_status status = verdicts_make(&verdicts, &desc, err);
-    *required_failed = verdicts_required_failed(&verdicts);
-    snprintf(path, sizeof path, "%s/claims.csv", given->directory);
-    if (status == FM_OK && verdicts.count > 0)
-        status = verdicts_write(&verdicts, path, err);
-    verdicts_free(&verdicts);
-    return status;
+    const fm_verdicts_desc desc = { .results = report->results,
+                                    .reference = report->reference,
+                                    .figures = report->figures,
+                                    .figure_count = report->figure_count };
+    const fm_status status = verdicts_make(verdicts, &desc, err);
+    snprintf(path, sizeof path, "%s/claims.csv", report->results->directory);
+    if (status != FM_OK || verdicts->count == 0)
+        return status;
+    return verdicts_write(verdicts, path, err);
+}
+
+static int tell(const arguments *given, const fm_report_outcome *outcome,
+                const fm_claim_results *verdicts, fm_error *err)
+{
+    const size_t failed = verdicts_required_failed(verdicts);
+    fprintf(stderr, "%zu chart%s, %zu picture%s", outcome->chart_count,
+            outcome->chart_count == 1 ? "" : "s", outcome->picture_count,
+            outcome->picture_count == 1 ? "" : "s");
+    for (int kind = 0; kind < FM_VERDICT_COUNT && verdicts->count > 0; kind++)
+        fprintf(stderr, "%s %zu %s", kind == 0 ? "; claims:" : ",",
+                verdicts_count(verdicts, (fm_verdict_kind)kind),
+                verdict_name((fm_verdict_kind)kind));
+    fputc('\n', stderr);
+    printf("%s/report.html\n", given->directory);
+    if (failed > 0)
+        fm_fail(err, FM_OK, "%zu claim%s that must hold fail%s: see claims.csv", failed,
+                failed == 1 ? "" : "s", failed == 1 ? "s" : "");
+    return failed == 0 ? EXIT_DONE : EXIT_CLAIM;
 }
 
 static int make_report(arguments *given, fm_error *err)
 {
     int code = EXIT_DAMAGED;
-    size_t required_failed = 0;
-    fm_result_files *results = NULL;
+    char reference_path[1024];
+    fm_result_files *results = NULL, *reference = NULL;
     fm_paper_figure *figures[FIGURES_MOST] = { NULL };
     const fm_paper_figure *borrowed[FIGURES_MOST] = { NULL };
+    fm_claim_results verdicts = { 0 };
     fm_report_outcome outcome;
-    if (result_files_read(&results, given->directory, err) != FM_OK)
+    if (result_files_read(&results, given->directory, err) != FM_OK ||
+        open_reference(&reference, reference_path, given, err) != FM_OK)
         goto out;
     if (given->figure_count == 0)
         take_figures_of_run(given, results->manifest);
@@ -127,24 +172,20 @@ static int make_report(arguments *given, fm_error *err)
         goto out;
     }
     memcpy(borrowed, figures, sizeof figures);
-    if (judge_claims(&required_failed, results, borrowed, given, err) != FM_OK)
+    const fm_report_desc desc = { .results = results,
+                                  .reference = reference,
+                                  .draws_reference = given->reference != NULL,
+                                  .verdicts = &verdicts,
+                                  .figures = borrowed,
+                                  .figure_count = given->figure_count };
+    if (judge_claims(&verdicts, &desc, err) != FM_OK || report_write(&outcome, &desc, err) != FM_OK)
         goto out;
-    fm_report_desc desc = { .results = results,
-                            .figures = borrowed,
-                            .figure_count = given->figure_count };
-    if (report_write(&outcome, &desc, err) != FM_OK)
-        goto out;
-    fprintf(stderr, "%zu chart%s, %zu picture%s\n", outcome.chart_count,
-            outcome.chart_count == 1 ? "" : "s", outcome.picture_count,
-            outcome.picture_count == 1 ? "" : "s");
-    printf("%s/report.html\n", given->directory);
-    code = required_failed == 0 ? EXIT_DONE : EXIT_CLAIM;
-    if (required_failed > 0)
-        fm_fail(err, FM_OK, "%zu claim%s that must hold fail%s: see claims.csv", required_failed,
-                required_failed == 1 ? "" : "s", required_failed == 1 ? "s" : "");
+    code = tell(given, &outcome, &verdicts, err);
 out:
+    verdicts_free(&verdicts);
     for (size_t i = 0; i < given->figure_count; i++)
         paper_figure_close(figures[i]);
+    result_files_close(reference);
     result_files_close(results);
     return code;
 }
@@ -155,6 +196,10 @@ int main(int argc, char **argv)
         { "figure", 'f', "FIGURE", 0,
           "Draw this figure of a paper: a file, or an id such as kplus-05. May be given again. "
           "Without it: the figures that the run was made for",
+          0 },
+        { "reference", 'r', "NAME|DIR|none", 0,
+          "Another machine's results: curves beside ours in all charts (without this option in "
+          "ratios only), and verdicts on what this machine cannot test; h100",
           0 },
         { 0 },
     };

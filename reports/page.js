@@ -20,15 +20,31 @@ function sort(table, heading) {
   rows.sort((a, b) => compare(value(a, column), value(b, column), sign));
   table.tBodies[0].append(...rows);
 }
+// A row is shown when it has all the words and, of a table of verdicts, the verdict that is pressed.
+function choose(table) {
+  const words = (table.filterText ?? "").toLowerCase().split(/\s+/);
+  for (const row of table.tBodies[0].rows)
+    row.hidden = !words.every(word => row.textContent.toLowerCase().includes(word)) ||
+      (table.wantedVerdict !== undefined && row.dataset.verdict !== table.wantedVerdict);
+}
+function addVerdicts(counts, table) {
+  for (const button of counts.children)
+    button.addEventListener("click", () => {
+      const verdict = button.dataset.verdict;
+      table.wantedVerdict = table.wantedVerdict === verdict ? undefined : verdict;
+      for (const other of counts.children)
+        other.setAttribute("aria-pressed", other.dataset.verdict === table.wantedVerdict);
+      choose(table);
+    });
+}
 function addFilter(table) {
   const input = document.createElement("input");
   input.className = "filter";
   input.placeholder = "filter rows, e.g. K+B ok";
   input.setAttribute("aria-label", "filter rows");
   input.addEventListener("input", () => {
-    const words = input.value.toLowerCase().split(/\s+/);
-    for (const row of table.tBodies[0].rows)
-      row.hidden = !words.every(word => row.textContent.toLowerCase().includes(word));
+    table.filterText = input.value;
+    choose(table);
   });
   table.parentNode.before(input);
 }
@@ -38,3 +54,5 @@ for (const table of document.querySelectorAll(".table table")) {
     heading.addEventListener("click", () => sort(table, heading));
   if (table.tBodies[0].rows.length > 8) addFilter(table);
 }
+for (const counts of document.querySelectorAll(".counts"))
+  addVerdicts(counts, counts.parentNode.querySelector(`#${CSS.escape(counts.dataset.table)}`));

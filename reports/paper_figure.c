@@ -7,11 +7,12 @@
 
 static const char *const figure_keys[] = { "id",           "paper",      "title", "source",
                                            "run",          "smoke",      "large", "charts",
-                                           "paper_points", "deviations", "table", "claims" };
-static const char *const chart_keys[] = { "id",    "kind",     "title",      "x",      "y",
-                                          "parts", "ratio_to", "with_paper", "y_scale" };
-static const char *const points_keys[] = { "parts", "series" };
-static const char *const series_keys[] = { "method", "title", "points" };
+                                           "paper_points", "deviations", "table", "claims",
+                                           "pictures" };
+static const char *const chart_keys[] = { "id",    "kind",     "title",      "x",       "y",
+                                          "parts", "ratio_to", "with_paper", "y_scale", "across" };
+static const char *const points_keys[] = { "metric", "parts", "series" };
+static const char *const series_keys[] = { "method", "title", "at", "points" };
 #define KEYS(list) (list), sizeof(list) / sizeof((list)[0])
 
 static fm_status read_chart(fm_figure_chart *chart, const fm_yaml *map, const fm_yaml_place *at)
@@ -38,6 +39,8 @@ static fm_status read_chart(fm_figure_chart *chart, const fm_yaml *map, const fm
         status = field_word(&scale, map, "y_scale", scales, 2, at);
     if (status == FM_OK)
         status = field_list(&chart->parts, map, "parts", at);
+    if (status == FM_OK)
+        status = field_list(&chart->across, map, "across", at);
     if (status == FM_OK && kind == FM_FIGURE_STACKED_BARS &&
         (chart->parts.count == 0 || chart->parts.count > FM_FIGURE_PARTS))
         return fm_fail(at->err, FM_INVALID, "%s:%u: stacked-bars need 1 to %d parts", at->path,
@@ -94,6 +97,10 @@ static fm_status read_paper_series(fm_paper_figure *figure, const fm_yaml *map, 
         status = field_text(&point.title, map, "title", true, at);
     if (status != FM_OK)
         return status;
+    point.at = yaml_tree_find(map, "at");
+    if (point.at != NULL && point.at->kind != FM_YAML_MAP)
+        return fm_fail(at->err, FM_INVALID, "%s:%u: at: columns and numbers are expected", at->path,
+                       point.at->line);
     const fm_yaml *points = yaml_tree_find(map, "points");
     if (points == NULL || points->kind != FM_YAML_LIST)
         return fm_fail(at->err, FM_INVALID, "%s:%u: points: a list is expected", at->path,
@@ -119,6 +126,10 @@ static fm_status read_paper_points(fm_paper_figure *figure, const fm_yaml *map,
     fm_status status = field_check_keys(map, "paper_points", KEYS(points_keys), at);
     if (status == FM_OK)
         status = field_list(&parts, map, "parts", at);
+    if (status == FM_OK)
+        status = field_text(&figure->points_metric, map, "metric", false, at);
+    if (status == FM_OK && figure->points_metric[0] == '\0')
+        figure->points_metric = "frame_ms";
     const fm_yaml *series = yaml_tree_find(map, "series");
     if (status == FM_OK && (series == NULL || series->kind != FM_YAML_LIST))
         status =

@@ -15,13 +15,15 @@
  *       y: frame_ms                lines: any metric; frame_ms has intervals
  *       parts: [clear_ms, ...]     stacked-bars: metrics, from the bottom up
  *       ratio_to: kplus-array      lines: y over that method's at the same x
- *       with_paper: true           lines with ratio_to: the paper's points, hollow
+ *       with_paper: true           lines: the paper's points, hollow
+ *       across: [height_px]        columns that change with x
  *       y_scale: log               or linear, the default
  *   paper_points:
- *     parts: [store_ms, resolve_ms]
- *     series:
+ *     metric: fps                  what the points are; frame_ms, the default: a ratio_to takes
+ * them too parts: [store_ms, resolve_ms] series:
  *       - method: kplus-array
  *         title: Array             as the paper's legend has it
+ *         at: { n: 16 }            of which workload, where the figure has several
  *         points: [[4, 3.9, 0.2], ...]   x, then one value a part
  *   claims: ...                    see claims/claim.h
  *   deviations: [sentences]
@@ -43,6 +45,7 @@ typedef enum fm_figure_kind { FM_FIGURE_LINES, FM_FIGURE_STACKED_BARS } fm_figur
 typedef struct fm_figure_chart {
     const char *id, *title, *x, *y;
     const char *ratio_to; /* NULL: none */
+    fm_name_list across;
     fm_figure_kind kind;
     fm_name_list parts;
     bool with_paper, is_log;
@@ -50,7 +53,8 @@ typedef struct fm_figure_chart {
 
 typedef struct fm_paper_point {
     const char *method, *title;
-    double x, value; /* the sum of its parts */
+    const fm_yaml *at; /* numbers by column; NULL: everywhere */
+    double x, value;   /* the sum of its parts */
 } fm_paper_point;
 
 typedef struct fm_paper_figure {
@@ -61,6 +65,7 @@ typedef struct fm_paper_figure {
     size_t chart_count;
     fm_paper_point points[FM_FIGURE_POINTS];
     size_t point_count;
+    const char *points_metric;
     fm_claim *claims; /* owned */
     size_t claim_count;
     fm_yaml *tree; /* holds all texts */

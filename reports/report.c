@@ -10,27 +10,18 @@
 
 #include "case_table.h"
 #include "chart.h"
-#include "figure_charts.h"
 #include "group.h"
 #include "html.h"
 #include "page.h"
+#include "paper_section.h"
 #include "pictures.h"
 #include "speed_error.h"
-#include "svg_png.h"
 #include "table.h"
+#include "writer.h"
 
-static const double png_zoom = 2.0;
 enum { PAGE_PICTURES_BYTES = 64 << 20 }; /* more would make a page that phones cannot open */
 
-/* What is shared while one report is written. */
-typedef struct writer {
-    const fm_result_files *results;
-    fm_text page;
-    fm_report_outcome *outcome;
-    fm_error *err;
-} writer;
-
-static fm_status make_folder(const writer *to, const char *name)
+static fm_status make_folder(const fm_writer *to, const char *name)
 {
     char path[1024];
     snprintf(path, sizeof path, "%s/%s", to->results->directory, name);
@@ -39,121 +30,44 @@ static fm_status make_folder(const writer *to, const char *name)
     return FM_OK;
 }
 
-/* The chart as files and in the page; FM_UNSUPPORTED becomes a sentence. Frees the chart. */
-static fm_status add_chart(writer *to, fm_chart *chart, fm_status status, const char *name)
+static fm_status add_group(fm_writer *to, const fm_group *group)
 {
-    char *svg = NULL, path[1280];
-    const char *directory = to->results->directory;
-    if (status == FM_UNSUPPORTED) {
-        text_add(&to->page, "<p class=note>No chart: ");
-        html_add(&to->page, to->err->message);
-        text_add(&to->page, ".</p>\n");
-        chart_free(chart);
-        return FM_OK;
-    }
+    fm_chart chart;
+    char name[160];
+    text_add(&to->page, "<p class=faint>");
+    html_add(&to->page, group->workload);
+    text_add(&to->page, "</p>\n");
+    snprintf(name, sizeof name, "speed-error-%s", group->name);
+    fm_status status = speed_error_chart(&chart, group, to->err);
+    status = writer_add_chart(to, &chart, status, name);
     if (status == FM_OK)
-        status = chart_svg(&svg, chart, to->err);
-    chart_free(chart);
-    if (status != FM_OK)
-        return status;
-    snprintf(path, sizeof path, "%s/charts/%s.svg", directory, name);
-    status = text_write_file(path, svg, strlen(svg), to->err);
-    snprintf(path, sizeof path, "%s/charts/%s.png", directory, name);
-    if (status == FM_OK)
-        status = svg_png_write(path, svg, png_zoom, to->err);
-    text_add(&to->page,
-             "<div class=chart>%s</div>\n<p class=links><a href=\"charts/%s.svg\">SVG</a> "
-             "<a href=\"charts/%s.png\">PNG</a> <a href=\"summary.csv\">data</a></p>\n",
-             svg, name, name);
-    to->outcome->chart_count++;
-    free(svg);
+        case_table_add(&to->page, group);
     return status;
 }
 
-static fm_status add_speed_error(writer *to, const fm_groups *groups)
+/* Below a paper's figures its many workloads are folded away. */
+static fm_status add_speed_error(fm_writer *to, const fm_groups *groups, bool is_folded)
 {
+    fm_status status = FM_OK;
     text_add(&to->page, "<h2 id=speed>Speed against error</h2>\n");
-    for (size_t i = 0; i < groups->count; i++) {
-        const fm_group *group = &groups->groups[i];
-        fm_chart chart;
-        char name[160];
-        text_add(&to->page, "<h3>");
-        html_add(&to->page, group->title);
-        text_add(&to->page, "</h3>\n<p class=faint>");
-        html_add(&to->page, group->workload);
-        text_add(&to->page, "</p>\n");
-        snprintf(name, sizeof name, "speed-error-%s", group->name);
-        fm_status status = speed_error_chart(&chart, group, to->err);
-        status = add_chart(to, &chart, status, name);
-        if (status != FM_OK)
-            return status;
-        case_table_add(&to->page, group);
+    for (size_t i = 0; i < groups->count && status == FM_OK; i++) {
+        text_add(&to->page, is_folded ? "<details><summary>" : "<h3>");
+        html_add(&to->page, groups->groups[i].title);
+        if (is_folded) {
+            text_add(&to->page, "; ");
+            html_add(&to->page, groups->groups[i].workload);
+        }
+        text_add(&to->page, is_folded ? "</summary>\n" : "</h3>\n");
+        status = add_group(to, &groups->groups[i]);
+        text_add(&to->page, is_folded ? "</details>\n" : "");
     }
     if (groups->count == 0)
         text_add(&to->page, "<p class=note>summary.csv has no case yet.</p>\n");
-    return FM_OK;
-}
-
-static fm_status add_figure_charts(writer *to, const fm_paper_figure *figure,
-                                   const fm_groups *groups)
-{
-    for (size_t i = 0; i < groups->count; i++)
-        for (size_t j = 0; j < figure->chart_count; j++) {
-            const fm_figure_chart *from = &figure->charts[j];
-            const fm_group *group = &groups->groups[i];
-            char name[256];
-            fm_chart chart;
-            snprintf(name, sizeof name, "%.60s-%.40s-%.120s", figure->id, from->id, group->name);
-            fm_status status = figure_chart_make(&chart, figure, from, to->results, group, to->err);
-            status = add_chart(to, &chart, status, name);
-            if (status != FM_OK)
-                return status;
-        }
-    return FM_OK;
-}
-
-static fm_status add_figure(writer *to, const fm_paper_figure *figure)
-{
-    fm_groups groups;
-    const fm_figure_cases cases = figure_cases(to->results, figure);
-    fm_status status = groups_make(&groups, to->results, figure_takes_case, &cases, to->err);
-    if (status != FM_OK)
-        return status;
-    text_add(&to->page, "<h3>");
-    html_add(&to->page, figure->title);
-    text_add(&to->page, "</h3>\n<p class=faint>");
-    html_add(&to->page, figure->source);
-    text_add(&to->page, "</p>\n");
-    if (groups.count == 0)
-        text_add(&to->page, "<p class=note>No case of this run belongs to this figure.</p>\n");
-    status = add_figure_charts(to, figure, &groups);
-    groups_free(&groups);
-    if (figure->deviations.count == 0)
-        return status;
-    text_add(&to->page, "<p>Deviations:</p>\n<ul>\n");
-    for (size_t i = 0; i < figure->deviations.count; i++) {
-        text_add(&to->page, "<li>");
-        html_add(&to->page, figure->deviations.names[i]);
-        text_add(&to->page, "</li>\n");
-    }
-    text_add(&to->page, "</ul>\n");
-    return status;
-}
-
-static fm_status add_figures(writer *to, const fm_report_desc *desc)
-{
-    fm_status status = FM_OK;
-    text_add(&to->page, "<h2 id=figures>Figures of papers</h2>\n");
-    if (desc->figure_count == 0)
-        text_add(&to->page, "<p>None asked for. <code>fragmark list figures</code> names them, "
-                            "<code>fragmark reproduce ID</code> measures one.</p>\n");
-    for (size_t i = 0; i < desc->figure_count && status == FM_OK; i++)
-        status = add_figure(to, desc->figures[i]);
     return status;
 }
 
 /* Any table of the directory as it is; absent: nothing. */
-static fm_status add_table(writer *to, const char *file, const char *title)
+static fm_status add_table(fm_writer *to, const char *file, const char *title)
 {
     char path[1024];
     fm_table *table = NULL;
@@ -185,7 +99,7 @@ static fm_status add_table(writer *to, const char *file, const char *title)
 }
 
 /* One picture of a case, embedded while there is room, with links to its files. */
-static fm_status add_picture(writer *to, size_t *embedded, const char *id, const char *kind,
+static fm_status add_picture(fm_writer *to, size_t *embedded, const char *id, const char *kind,
                              const char *caption)
 {
     char path[1280];
@@ -207,7 +121,7 @@ static fm_status add_picture(writer *to, size_t *embedded, const char *id, const
     return status;
 }
 
-static fm_status add_heat_scale(writer *to)
+static fm_status add_heat_scale(fm_writer *to)
 {
     char path[1280];
     fm_status status = pictures_write_scale(to->results->directory, to->err);
@@ -225,7 +139,7 @@ static fm_status add_heat_scale(writer *to)
     return status;
 }
 
-static fm_status add_case_pictures(writer *to, size_t *embedded, const fm_group *group,
+static fm_status add_case_pictures(fm_writer *to, size_t *embedded, const fm_group *group,
                                    const fm_case_row *result, const fm_picture_set *set)
 {
     char title[96], caption[160];
@@ -252,7 +166,7 @@ static fm_status add_case_pictures(writer *to, size_t *embedded, const fm_group 
     return status;
 }
 
-static fm_status add_pictures(writer *to, const fm_groups *groups)
+static fm_status add_pictures(fm_writer *to, const fm_groups *groups)
 {
     size_t embedded = 0, shown = 0;
     text_add(&to->page, "<h2 id=pictures>Pictures</h2>\n");
@@ -278,22 +192,21 @@ static fm_status add_pictures(writer *to, const fm_groups *groups)
     return FM_OK;
 }
 
-static fm_status write_sections(writer *to, const fm_report_desc *desc)
+static fm_status write_sections(fm_writer *to, const fm_report_desc *desc)
 {
     fm_groups groups;
-    fm_status status = groups_make(&groups, to->results, NULL, NULL, to->err);
+    const fm_groups_desc all = { 0 };
+    fm_status status = groups_make(&groups, to->results, &all, to->err);
     if (status != FM_OK)
         return status;
     page_begin(&to->page, to->results);
-    status = add_speed_error(to, &groups);
-    if (status == FM_OK)
-        status = add_figures(to, desc);
-    if (status == FM_OK)
-        status = add_table(to, "claims.csv", "Claims and verdicts");
+    status = paper_sections_add(to);
     if (status == FM_OK)
         status = add_table(to, "memory.csv", "Memory by formula, and as printed");
     if (status == FM_OK)
         status = add_pictures(to, &groups);
+    if (status == FM_OK)
+        status = add_speed_error(to, &groups, desc->figure_count > 0);
     page_add_notes(&to->page, to->results);
     page_add_guide(&to->page);
     page_add_machine(&to->page, to->results);
@@ -305,7 +218,7 @@ static fm_status write_sections(writer *to, const fm_report_desc *desc)
 fm_status report_write(fm_report_outcome *outcome, const fm_report_desc *desc, fm_error *err)
 {
     char path[1024];
-    writer to = { .results = desc->results, .outcome = outcome, .err = err };
+    fm_writer to = { .desc = desc, .results = desc->results, .outcome = outcome, .err = err };
     *outcome = (fm_report_outcome){ 0 };
     fm_status status = make_folder(&to, "charts");
     if (status == FM_OK)

@@ -4,12 +4,16 @@
 
 #include <stddef.h>
 
+#include "claims/verdicts.h"
 #include "error.h"
 #include "paper_figure.h"
 #include "result_files.h"
 
 typedef struct fm_report_desc {
     const fm_result_files *results;
+    const fm_result_files *reference; /* of another machine; NULL: none */
+    bool draws_reference;             /* in all charts, not in ratios only */
+    const fm_claim_results *verdicts;
     const fm_paper_figure *const *figures; /* [figure_count]; none: no figures section */
     size_t figure_count;
 } fm_report_desc;

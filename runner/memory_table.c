@@ -103,11 +103,12 @@ static fm_status read_totals(uint64_t totals[FM_MAX_TOTALS], const fm_yaml *colu
                              const fm_workload *workload, const table_job *job)
 {
     fm_status status = FM_OK;
+    const fm_method_desc *method = workload->runner;
     const fm_yaml *named = yaml_tree_find(column, "totals");
     for (size_t i = 0; i < FM_MAX_TOTALS && status == FM_OK; i++) {
-        const char *name = workload->runner->totals[i].name;
+        const char *name = method->totals[i].name;
         totals[i] = workload->fragments;
-        if (name != NULL && yaml_tree_find(named, name) != NULL)
+        if (name != NULL && named != NULL && yaml_tree_find(named, name) != NULL)
             status = read_whole(&totals[i], named, name, UINT64_MAX / 2, job);
     }
     return status;

@@ -29,6 +29,7 @@ typedef struct fm_case {
     char skip[512]; /* not empty: recorded as not_supported with this reason, never run
                        (k above k_max, a feed or an option's value that the method does not
                        have, a mesh that cannot be read), or "plugin_error: ..." */
+    bool no_image;  /* its picture is not kept; no part of its id */
 } fm_case;
 
 /* Lists of texts, each ending with NULL. */

@@ -301,7 +301,7 @@ static fm_status measure(run_state *run, size_t case_index, uint32_t launch, fm_
     fm_launch_outcome outcome;
     fm_status status = path_of(
         truth, run, "truth", run->truths.jobs[run->truths.of_case[case_index]].name, ".truth", err);
-    if (status == FM_OK && launch == 0 && !run->desc->no_images)
+    if (status == FM_OK && launch == 0 && !run->desc->no_images && !of->no_image)
         status = path_of(image, run, "images", of->id, ".rgba32f", err);
     if (status == FM_OK)
         status = journal_write(run->journal, FM_JOURNAL_BEGIN, of->id, launch, NULL, err);

@@ -1,4 +1,5 @@
 /* fragmark-report on fabricated results. */
+#include <dirent.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -244,7 +245,7 @@ static void frontier_holds_what_no_other_case_beats(void **state)
     bool on[USUAL];
     make_results(directory, usual, USUAL);
     assert_int_equal(result_files_read(&results, directory, NULL), FM_OK);
-    assert_int_equal(groups_make(&groups, results, NULL, NULL, NULL), FM_OK);
+    assert_int_equal(groups_make(&groups, results, &(fm_groups_desc){ 0 }, NULL), FM_OK);
     assert_int_equal(groups.count, 1);
     speed_error_frontier(on, &groups.groups[0]);
     for (size_t i = 0; i < USUAL; i++)
@@ -267,7 +268,7 @@ static void groups_keep_different_scene_options_apart(void **state)
     fm_groups groups;
     make_results(directory, fakes, 3);
     assert_int_equal(result_files_read(&results, directory, NULL), FM_OK);
-    assert_int_equal(groups_make(&groups, results, NULL, NULL, NULL), FM_OK);
+    assert_int_equal(groups_make(&groups, results, &(fm_groups_desc){ 0 }, NULL), FM_OK);
     assert_int_equal(groups.count, 2);
     assert_int_equal(groups.groups[0].count, 2);
     group_series_title(title, groups.groups[0].cases[1]);
@@ -281,14 +282,39 @@ static void groups_keep_different_scene_options_apart(void **state)
 static void figure_files_of_the_project_are_read(void **state)
 {
     (void)state;
+    size_t count = 0;
+    DIR *folder = opendir(FM_FIGURES_SOURCE_DIR);
+    const struct dirent *file;
+    assert_non_null(folder);
+    while ((file = readdir(folder)) != NULL) {
+        char path[1024], id[300];
+        fm_paper_figure *figure;
+        fm_error err = { 0 };
+        if (file->d_name[0] == '.')
+            continue;
+        snprintf(path, sizeof path, "%s/%s", FM_FIGURES_SOURCE_DIR, file->d_name);
+        if (paper_figure_read(&figure, path, &err) != FM_OK)
+            fail_msg("%s", err.message);
+        snprintf(id, sizeof id, "%s.yml", figure->id);
+        assert_string_equal(id, file->d_name);
+        paper_figure_close(figure);
+        count++;
+    }
+    closedir(folder);
+    assert_true(count >= 12);
+}
+
+static void points_of_the_paper_are_sums_of_parts(void **state)
+{
+    (void)state;
     fm_paper_figure *figure;
     fm_error err;
     assert_int_equal(paper_figure_read(&figure, FM_FIGURES_SOURCE_DIR "/kplus-05.yml", &err),
                      FM_OK);
     assert_string_equal(figure->id, "kplus-05");
-    assert_int_equal(figure->point_count, 20);
+    assert_int_equal(figure->point_count, 40);
     assert_true(fabs(figure->points[0].value - 4.9) < 1e-9);
-    assert_true(name_list_has(&figure->methods, "ab-ll"));
+    assert_true(name_list_has(&figure->methods, "kplus-array"));
     paper_figure_close(figure);
 }
 
@@ -340,7 +366,9 @@ static char *report_of(const char *directory, const char *figure_path)
     if (figure_path != NULL)
         assert_int_equal(paper_figure_read(&figure, figure_path, &err), FM_OK);
     const fm_paper_figure *figures[] = { figure };
-    fm_report_desc desc = { results, figures, figure != NULL };
+    const fm_report_desc desc = { .results = results,
+                                  .figures = figures,
+                                  .figure_count = figure != NULL };
     assert_int_equal(report_write(&outcome, &desc, &err), FM_OK);
     snprintf(path, sizeof path, "%s/report.html", directory);
     assert_int_equal(text_read_file(&html, &count, path, 64 << 20, &err), FM_OK);
@@ -453,6 +481,7 @@ int main(void)
         cmocka_unit_test(frontier_holds_what_no_other_case_beats),
         cmocka_unit_test(groups_keep_different_scene_options_apart),
         cmocka_unit_test(figure_files_of_the_project_are_read),
+        cmocka_unit_test(points_of_the_paper_are_sums_of_parts),
         cmocka_unit_test(figure_with_an_unknown_key_names_the_nearest),
         cmocka_unit_test(chart_is_svg_without_ids_that_could_clash),
         cmocka_unit_test(report_shows_failed_cases_and_warns_of_hidden_races),

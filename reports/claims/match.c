@@ -4,67 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "group.h"
 #include "text.h"
-
-/* What tells workloads apart; `k` and `n` are empty where a method does not use them. */
-static const struct {
-    const char *name;
-    size_t offset;
-    bool is_text, may_be_empty;
-} workload_columns[] = {
-    { "scene", offsetof(fm_case_row, scene), true, false },
-    { "device", offsetof(fm_case_row, device), true, false },
-    { "feed", offsetof(fm_case_row, feed), true, false },
-    { "order", offsetof(fm_case_row, order), true, false },
-    { "seed", offsetof(fm_case_row, seed), true, false },
-    { "width_px", offsetof(fm_case_row, width_px), false, false },
-    { "height_px", offsetof(fm_case_row, height_px), false, false },
-    { "n", offsetof(fm_case_row, n), false, true },
-    { "k", offsetof(fm_case_row, k), false, true },
-    { "r", offsetof(fm_case_row, r), false, false },
-    { "pixel_density", offsetof(fm_case_row, pixel_density), false, false },
-    { "fragment_probability", offsetof(fm_case_row, fragment_probability), false, false },
-    { "tessellation", offsetof(fm_case_row, tessellation), false, false },
-};
-enum { WORKLOAD_COLUMNS = sizeof workload_columns / sizeof workload_columns[0] };
-
-static const char *text_of(const fm_case_row *row, size_t column)
-{
-    const void *field = (const char *)row + workload_columns[column].offset;
-    return *(const char *const *)field;
-}
-
-static double number_of(const fm_case_row *row, size_t column)
-{
-    const void *field = (const char *)row + workload_columns[column].offset;
-    return *(const double *)field;
-}
-
-static bool same_column(const fm_case_row *a, const fm_case_row *b, size_t column)
-{
-    if (workload_columns[column].is_text)
-        return strcmp(text_of(a, column), text_of(b, column)) == 0;
-    const double x = number_of(a, column), y = number_of(b, column);
-    if (isnan(x) || isnan(y))
-        return workload_columns[column].may_be_empty || (isnan(x) && isnan(y));
-    return x == y;
-}
-
-/* n = r k layers grow with k: who may differ in k may differ in n. */
-static bool is_free(const fm_name_list *free_columns, const char *name)
-{
-    return name_list_names(free_columns, name) ||
-           (strcmp(name, "n") == 0 && name_list_names(free_columns, "k"));
-}
-
-bool match_workload(const fm_case_row *a, const fm_case_row *b, const fm_name_list *free_columns)
-{
-    for (size_t i = 0; i < WORKLOAD_COLUMNS; i++)
-        if (!is_free(free_columns, workload_columns[i].name) && !same_column(a, b, i))
-            return false;
-    return group_same_scene_options(a, b, free_columns);
-}
 
 /* ---- tests ---- */
 
@@ -147,24 +87,4 @@ bool match_memory_row(const fm_selection *selection, const fm_claim_rows *rows, 
                           table_cell(table, row, table_column(table, selection->tests[i].key))))
             return false;
     return true;
-}
-
-void match_name_columns(char *name, size_t room, const fm_claim_rows *rows,
-                        const fm_case_row *result)
-{
-    size_t used = 0;
-    name[0] = '\0';
-    for (size_t i = 0; i < WORKLOAD_COLUMNS && used + 40 < room; i++) {
-        bool differs = false;
-        for (size_t j = 0; j < rows->results->count && !differs; j++)
-            differs = (rows->takes == NULL || rows->takes[j]) &&
-                      !same_column(result, &rows->results->cases[j], i);
-        if (!differs || (!workload_columns[i].is_text && isnan(number_of(result, i))))
-            continue;
-        if (workload_columns[i].is_text)
-            used += (size_t)snprintf(name + used, room - used, ", %.24s", text_of(result, i));
-        else
-            used += (size_t)snprintf(name + used, room - used, ", %s %.6g",
-                                     workload_columns[i].name, number_of(result, i));
-    }
 }

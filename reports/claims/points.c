@@ -8,6 +8,7 @@
 #include "group.h"
 #include "match.h"
 #include "text.h"
+#include "workload.h"
 
 enum { SAMPLES_WANTED = 5 };
 static const double few_samples_share = 0.15; /* what timings of one case scatter by */
@@ -114,7 +115,7 @@ static const fm_case_row *find_partner(fm_interval *best, bool *has_few, points_
     for (size_t i = 0; i < job->rows->results->count; i++) {
         const fm_case_row *other = &job->rows->results->cases[i];
         if (!match_takes(job->claim, job->rows, i) || !match_row(selection, job->rows, i) ||
-            !match_workload(of, other, &own) || !is_own_partner(selection, of, other))
+            !workload_same(of, other, &own) || !is_own_partner(selection, of, other))
             continue;
         const fm_interval value = measured_value(has_few, selection, job->rows, other);
         if (!has_value(job, other, &value))
@@ -186,8 +187,7 @@ static void add_point(points_job *job, const fm_selection *of, const fm_claim_po
     const fm_name_list none = { 0 };
     for (size_t i = 0; i < to->count && of->take != FM_TAKE_EACH; i++) {
         fm_claim_point *old = &to->points[i];
-        if (old->selection != point->selection ||
-            !match_workload(old->result, point->result, &none))
+        if (old->selection != point->selection || !workload_same(old->result, point->result, &none))
             continue;
         const bool is_better = of->take == FM_TAKE_LEAST ? point->value.median < old->value.median
                                                          : point->value.median > old->value.median;
@@ -277,7 +277,7 @@ bool claim_point_same_workload(const fm_claim *claim, const fm_claim_point *a,
         return a->result == b->result;
     const fm_name_list list = claim->form == FM_CLAIM_ORDER ? own_columns(&claim->of[b->selection])
                                                             : free_columns_of(claim);
-    return match_workload(a->result, b->result, &list);
+    return workload_same(a->result, b->result, &list);
 }
 
 bool claim_point_same_series(const fm_claim *claim, const fm_claim_point *a,
@@ -321,7 +321,7 @@ void claim_point_name(char name[160], const fm_claim_rows *rows, const fm_claim_
     }
     group_series_title(title, point->result);
     const size_t used = (size_t)snprintf(name, 160, "%.80s", title);
-    match_name_columns(name + used, 160 - used, rows, point->result);
+    workload_name(name + used, 160 - used, rows->results, rows->takes, point->result);
 }
 
 fm_status claim_points_make(fm_claim_points *points, const fm_claim *claim,

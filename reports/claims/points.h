@@ -3,8 +3,8 @@
 #define FM_CLAIM_POINTS_H
 
 #include "claim.h"
+#include "interval.h"
 #include "result_files.h"
-#include "stats.h"
 
 /* Where rows come from. */
 typedef struct fm_claim_rows {
@@ -44,10 +44,5 @@ bool claim_point_same_workload(const fm_claim *claim, const fm_claim_point *a,
                                const fm_claim_point *b);
 /* "K+B-Array, k 8, n 128": tells a point from the others. */
 void claim_point_name(char name[160], const fm_claim_rows *rows, const fm_claim_point *point);
-
-/* Arithmetic of independent medians with 95 % intervals: limits are recovered from the parts'
- * (Donner and Zou's MOVER), for ratios of their logarithms. */
-fm_interval interval_ratio(fm_interval of, fm_interval over);
-fm_interval interval_difference(fm_interval of, fm_interval minus);
 
 #endif

@@ -275,3 +275,11 @@ size_t verdicts_required_failed(const fm_claim_results *verdicts)
                   verdicts->items[i].verdict.kind == FM_VERDICT_FAILS;
     return failed;
 }
+
+size_t verdicts_count(const fm_claim_results *verdicts, fm_verdict_kind kind)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < verdicts->count; i++)
+        count += verdicts->items[i].verdict.kind == kind;
+    return count;
+}

@@ -35,6 +35,8 @@ void verdicts_free(fm_claim_results *verdicts);
  */
 fm_status verdicts_write(const fm_claim_results *verdicts, const char *path, fm_error *err);
 
+size_t verdicts_count(const fm_claim_results *verdicts, fm_verdict_kind kind);
+
 /* How many required claims fail on the results' own devices. */
 size_t verdicts_required_failed(const fm_claim_results *verdicts);
 

@@ -101,6 +101,7 @@ typedef struct fm_figure {
     char id[64]; /* the file's name without .yml */
     char path[FM_PATH_MAX_BYTES];
     char title[256];
+    bool has_pictures; /* `pictures: true`: those of its cases are kept */
 } fm_figure;
 typedef struct fm_figure_list {
     fm_figure *figures; /* by id */

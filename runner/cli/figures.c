@@ -20,7 +20,7 @@ static bool has_figure(const fm_figure_list *list, const char *id)
 }
 
 /* A figure whose file is damaged is listed too: reproducing it says what is wrong. */
-static void read_title(fm_figure *figure)
+static void read_head(fm_figure *figure)
 {
     fm_yaml *root = NULL;
     fm_error below = { 0 };
@@ -28,6 +28,9 @@ static void read_title(fm_figure *figure)
         const fm_yaml *title = yaml_tree_find(root, "title");
         if (title != NULL && title->kind == FM_YAML_SCALAR)
             snprintf(figure->title, sizeof figure->title, "%s", title->text);
+        const fm_yaml *pictures = yaml_tree_find(root, "pictures");
+        figure->has_pictures =
+            pictures != NULL && pictures->text != NULL && strcmp(pictures->text, "true") == 0;
     }
     yaml_tree_free(root);
 }
@@ -44,7 +47,7 @@ static fm_status add_figure(fm_figure_list *list, const char *folder, const char
     const int length = snprintf(figure.path, sizeof figure.path, "%s/%s", folder, file);
     if (length < 0 || (size_t)length >= sizeof figure.path || has_figure(list, figure.id))
         return FM_OK;
-    read_title(&figure);
+    read_head(&figure);
     fm_figure *grown = reallocarray(list->figures, list->count + 1, sizeof *grown);
     if (grown == NULL)
         return fm_fail(err, FM_NO_MEMORY, "no memory for %zu figures", list->count + 1);

@@ -104,6 +104,7 @@ typedef struct spec_files {
     char folder[FM_PATH_MAX_BYTES];
     fm_names ids, paths;
     fm_names owners; /* of each path: a figure's id */
+    const fm_figure_list *list;
 } spec_files;
 
 static fm_figure_size size_of(const fm_arguments *arguments)
@@ -134,6 +135,7 @@ static fm_status write_specs(spec_files *specs, const fm_arguments *arguments,
                              const fm_figure_list *list, const bool *is_chosen, fm_error *err)
 {
     fm_status status = FM_OK;
+    specs->list = list;
     for (size_t i = 0; i < list->count && status == FM_OK; i++)
         if (is_chosen[i])
             status = write_figure(specs, arguments, &list->figures[i], err);
@@ -180,31 +182,58 @@ static void keep_specs(const spec_files *specs, const char *directory)
     }
 }
 
+/* Pictures are kept of figures that show them. */
+static void choose_pictures(fm_plan *plan, const fm_plan *of_figure, bool has_pictures)
+{
+    for (size_t i = 0; has_pictures && i < of_figure->count; i++)
+        for (size_t j = 0; j < plan->count; j++)
+            if (strcmp(plan->cases[j].id, of_figure->cases[i].id) == 0)
+                plan->cases[j].no_image = false;
+}
+
+static bool has_pictures(const fm_figure_list *list, const char *id)
+{
+    for (size_t i = 0; i < list->count; i++)
+        if (strcmp(list->figures[i].id, id) == 0)
+            return list->figures[i].has_pictures;
+    return false;
+}
+
 /* DIR/figures.csv: which case belongs to which figure; one may belong to several. A run that goes
  * on has it. */
-static fm_status write_figure_cases(const char *directory, const spec_files *specs,
-                                    const fm_arguments *arguments, const fm_plugin_list *plugins,
-                                    fm_error *err)
+static fm_status write_figure_cases(const char *directory, const fm_text *csv, fm_error *err)
 {
     char path[2 * FM_PATH_MAX_BYTES];
-    fm_text csv = { 0 };
-    fm_status status = FM_OK;
     snprintf(path, sizeof path, "%s/figures.csv", directory);
     if (access(path, F_OK) == 0)
         return FM_OK;
+    if (mkdir(directory, 0777) != 0 && errno != EEXIST)
+        return fm_fail(err, FM_IO, "%s: %s", directory, strerror(errno));
+    return csv->failed ? fm_fail(err, FM_NO_MEMORY, "%s", path)
+                       : text_write_file(path, csv->bytes, csv->length, err);
+}
+
+/* What the plan's cases are for: figures.csv, and whose pictures are kept. */
+static fm_status assign_cases(fm_plan *plan, const char *directory, const spec_files *specs,
+                              const fm_arguments *arguments, const fm_plugin_list *plugins,
+                              fm_error *err)
+{
+    fm_text csv = { 0 };
+    fm_status status = FM_OK;
     text_add(&csv, "figure,case_id\n");
+    for (size_t i = 0; i < plan->count; i++)
+        plan->cases[i].no_image = true;
     for (size_t i = 0; i < specs->paths.count && status == FM_OK; i++) {
-        fm_plan plan = { 0 };
-        status = arguments_expand(&plan, plugins, arguments, specs->paths.names[i], err);
-        for (size_t j = 0; j < plan.count && status == FM_OK; j++)
-            text_add(&csv, "%s,%s\n", specs->owners.names[i], plan.cases[j].id);
-        plan_free(&plan);
+        fm_plan of_figure = { 0 };
+        const char *id = specs->owners.names[i];
+        status = arguments_expand(&of_figure, plugins, arguments, specs->paths.names[i], err);
+        for (size_t j = 0; j < of_figure.count && status == FM_OK; j++)
+            text_add(&csv, "%s,%s\n", id, of_figure.cases[j].id);
+        choose_pictures(plan, &of_figure, has_pictures(specs->list, id));
+        plan_free(&of_figure);
     }
-    if (status == FM_OK && mkdir(directory, 0777) != 0 && errno != EEXIST)
-        status = fm_fail(err, FM_IO, "%s: %s", directory, strerror(errno));
     if (status == FM_OK)
-        status = csv.failed ? fm_fail(err, FM_NO_MEMORY, "%s", path)
-                            : text_write_file(path, csv.bytes, csv.length, err);
+        status = write_figure_cases(directory, &csv, err);
     text_free(&csv);
     return status;
 }
@@ -218,7 +247,7 @@ static int run_specs(const spec_files *specs, const fm_arguments *arguments, con
     fm_error err = { 0 };
     cli_directory(directory, arguments);
     if (arguments_plan(&plan, &plugins, arguments, names_list(&specs->paths), &err) != FM_OK ||
-        write_figure_cases(directory, specs, arguments, &plugins, &err) != FM_OK)
+        assign_cases(&plan, directory, specs, arguments, &plugins, &err) != FM_OK)
         code = cli_fail(arguments->cli, &err);
     else
         code =

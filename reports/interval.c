@@ -1,6 +1,7 @@
-#include <math.h>
+#include "interval.h"
 
-#include "points.h"
+#include <math.h>
+#include <stdbool.h>
 
 fm_interval interval_difference(fm_interval of, fm_interval minus)
 {

@@ -1,0 +1,31 @@
+/* What the kinds of a figure's charts share. */
+#ifndef FM_FIGURE_JOB_H
+#define FM_FIGURE_JOB_H
+
+#include "figure_charts.h"
+
+/* One chart being made. */
+typedef struct fm_figure_job {
+    fm_chart *chart;
+    const fm_paper_figure *figure;
+    const fm_figure_chart *from;
+    const fm_result_files *results;
+    const fm_group *group;
+    double *x, *y; /* values that the axes must hold; room in both for all points */
+    size_t x_count, y_count;
+} fm_figure_job;
+
+/* Drawn level over all x, for k says nothing about it. */
+bool figure_is_level(const fm_figure_job *at, const fm_case_row *result);
+/* The distinct x of all measured cases that use x, rising; at least one when anything is measured.
+ */
+size_t figure_distinct_x(double *xs, const fm_figure_job *at);
+double figure_x(const fm_figure_job *at, const fm_case_row *result);
+
+/* FM_UNSUPPORTED: nothing to draw. xs: room for one of each case. reference: the same of another
+ * machine, drawn thin; its group is NULL where there is none. */
+fm_status figure_make_lines(fm_figure_job *at, const fm_figure_job *reference, double *xs,
+                            fm_error *err);
+fm_status figure_make_bars(fm_figure_job *at, double *xs, fm_error *err);
+
+#endif

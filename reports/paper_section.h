@@ -1,0 +1,10 @@
+/* Of each paper: verdicts first, then its figures. */
+#ifndef FM_PAPER_SECTION_H
+#define FM_PAPER_SECTION_H
+
+#include "writer.h"
+
+/* FM_IO, FM_NO_MEMORY; FM_INVALID: a chart that cannot be drawn. */
+fm_status paper_sections_add(fm_writer *to);
+
+#endif
