@@ -137,17 +137,17 @@ void build_box(fm_builder *b, vec3 low, vec3 high)
                    box_corner(low, high, faces[i][2]), box_corner(low, high, faces[i][3]));
 }
 
-/* A ring of vertices, or one vertex where the radius is 0. slope: of the normal, towards y. */
-static uint32_t lathe_ring(fm_builder *b, uint32_t sides, double radius, double y, vec3 along)
+/* Its vertices, or one where the radius is 0. The profile runs along (along.x, along.y), so that
+ * its normal is (along.y, -along.x). */
+static uint32_t lathe_ring(fm_builder *b, uint32_t sides, fm_ring ring, vec3 along)
 {
-    if (!(radius > 0))
-        return build_vertex(b, (vec3){ 0, y, 0 }, (vec3){ 0, 1, 0 });
+    if (!(ring.radius > 0))
+        return build_vertex(b, (vec3){ 0, ring.y, 0 }, (vec3){ 0, 1, 0 });
     const uint32_t first = b->vertex_count;
     for (uint32_t i = 0; i < sides; i++) {
         const double turns = (double)i / sides;
         const vec3 out = { turn_cos(turns), 0, turn_sin(turns) };
-        /* The profile runs along (along.x, along.y): its normal is (along.y, -along.x). */
-        build_vertex(b, (vec3){ radius * out.x, y, radius * out.z },
+        build_vertex(b, (vec3){ ring.radius * out.x, ring.y, ring.radius * out.z },
                      (vec3){ along.y * out.x, -along.x, along.y * out.z });
     }
     return first;
@@ -166,27 +166,26 @@ static void lathe_band(fm_builder *b, const uint32_t first[2], const bool is_tip
     }
 }
 
-static void lathe_step(fm_builder *b, uint32_t sides, const double from[2], const double to[2])
+static void lathe_step(fm_builder *b, uint32_t sides, fm_ring from, fm_ring to)
 {
-    const vec3 along = { to[0] - from[0], to[1] - from[1], 0 };
-    const bool is_tip[2] = { !(from[0] > 0), !(to[0] > 0) };
-    const uint32_t first[2] = { lathe_ring(b, sides, from[0], from[1], along),
-                                lathe_ring(b, sides, to[0], to[1], along) };
+    const vec3 along = { to.radius - from.radius, to.y - from.y, 0 };
+    const bool is_tip[2] = { !(from.radius > 0), !(to.radius > 0) };
+    const uint32_t first[2] = { lathe_ring(b, sides, from, along),
+                                lathe_ring(b, sides, to, along) };
     assert(!is_tip[0] || !is_tip[1]);
     lathe_band(b, first, is_tip, sides);
 }
 
 void build_lathe(fm_builder *b, const fm_lathe *lathe)
 {
-    const double(*profile)[2] = lathe->profile;
-    const uint32_t last = lathe->points - 1;
+    const fm_ring *profile = lathe->profile, *last = &profile[lathe->points - 1];
     assert(lathe->points >= 2 && lathe->sides >= 3);
-    if (!lathe->is_open && profile[0][0] > 0)
-        lathe_step(b, lathe->sides, (double[2]){ 0, profile[0][1] }, profile[0]);
-    for (uint32_t i = 0; i < last; i++)
-        lathe_step(b, lathe->sides, profile[i], profile[i + 1]);
-    if (!lathe->is_open && profile[last][0] > 0)
-        lathe_step(b, lathe->sides, profile[last], (double[2]){ 0, profile[last][1] });
+    if (!lathe->is_open && profile->radius > 0)
+        lathe_step(b, lathe->sides, (fm_ring){ 0, profile->y }, *profile);
+    for (; profile < last; profile++)
+        lathe_step(b, lathe->sides, profile[0], profile[1]);
+    if (!lathe->is_open && last->radius > 0)
+        lathe_step(b, lathe->sides, *last, (fm_ring){ 0, last->y });
 }
 
 /* Any direction across. */

@@ -57,12 +57,16 @@ void build_quad(fm_builder *b, vec3 p, vec3 q, vec3 r, vec3 s);
 /* Closed: 12 triangles. */
 void build_box(fm_builder *b, vec3 low, vec3 high);
 
-/* A solid of revolution around local y: the points (radius, y) of its profile. */
+typedef struct fm_ring {
+    double radius, y;
+} fm_ring;
+
+/* A solid of revolution around local y. */
 typedef struct fm_lathe {
-    const double (*profile)[2]; /* [points]; radius 0 is a tip, at the ends only */
-    uint32_t points;            /* at least 2 */
-    uint32_t sides;             /* at least 3 */
-    bool is_open;               /* else flat ends are closed by triangles around a tip */
+    const fm_ring *profile; /* [points]; radius 0 is a tip, at the ends only */
+    uint32_t points;        /* at least 2 */
+    uint32_t sides;         /* at least 3 */
+    bool is_open;           /* else flat ends are closed by triangles around a tip */
 } fm_lathe;
 void build_lathe(fm_builder *b, const fm_lathe *lathe);
 

@@ -22,12 +22,12 @@ static void block(fm_builder *b, vec3 low, vec3 size)
 /* Wider above than below, as at Knossos; capital and abacus above, a disc of gypsum below. */
 static void column(fm_builder *b, double x, double y, double z, double height)
 {
-    static const double foot[2][2] = { { 0.42, 0 }, { 0.42, 0.12 } };
-    const double shaft[2][2] = { { 0.26, 0.14 }, { 0.36, height - 0.52 } };
-    const double capital[4][2] = { { 0.34, height - 0.5 },
-                                   { 0.5, height - 0.42 },
-                                   { 0.5, height - 0.3 },
-                                   { 0.38, height - 0.22 } };
+    static const fm_ring foot[2] = { { 0.42, 0 }, { 0.42, 0.12 } };
+    const fm_ring shaft[2] = { { 0.26, 0.14 }, { 0.36, height - 0.52 } };
+    const fm_ring capital[4] = { { 0.34, height - 0.5 },
+                                 { 0.5, height - 0.42 },
+                                 { 0.5, height - 0.3 },
+                                 { 0.38, height - 0.22 } };
     b->frame.origin = (vec3){ x, y, z };
     b->colour = gypsum;
     build_lathe(b, &(fm_lathe){ .profile = foot, .points = 2, .sides = 12 });
@@ -46,7 +46,7 @@ static void horns(fm_builder *b, double x, double y, double z)
     b->frame.origin = (vec3){ x, y, z };
     build_box(b, (vec3){ -0.9, 0, -0.2 }, (vec3){ 0.9, 0.3, 0.2 });
     for (int side = -1; side <= 1; side += 2) {
-        static const double tip[3][2] = { { 0.26, 0 }, { 0.18, 0.7 }, { 0, 1.2 } };
+        static const fm_ring tip[3] = { { 0.26, 0 }, { 0.18, 0.7 }, { 0, 1.2 } };
         b->frame = (fm_frame){
             { x + 0.6 * side, y + 0.3 + joint, z }, { 1, 0, 0 }, { 0.25 * side, 1, 0 }, { 0, 0, 1 }
         };

@@ -10,6 +10,14 @@ static void (*build_of(fm_generator generator))(fm_builder *)
         return palace_build;
     case FM_GENERATOR_HAIRBALL:
         return hairball_build;
+    case FM_GENERATOR_ENGINE:
+        return engine_build;
+    case FM_GENERATOR_TEMPLE:
+        return temple_build;
+    case FM_GENERATOR_HOTEL:
+        return hotel_build;
+    case FM_GENERATOR_IVY:
+        return ivy_build;
     case FM_GENERATOR_LAYERS:
     case FM_GENERATOR_MESH:
     case FM_GENERATOR_BUNNY_IN_CUBE:

@@ -22,5 +22,9 @@ fm_status bunny_in_cube_generate(fm_scene *scene, fm_error *err);
 /* What each makes stands in its file. */
 void palace_build(fm_builder *b);
 void hairball_build(fm_builder *b);
+void engine_build(fm_builder *b);
+void temple_build(fm_builder *b);
+void hotel_build(fm_builder *b);
+void ivy_build(fm_builder *b);
 
 #endif

@@ -31,7 +31,7 @@ const fm_key fm_keys[] = {
       .unit = "px", .help = "viewport" },
     { "height_px", FM_KEY_UINT, ANY, AT(height_px), .low = 1, .high = 16384, .fallback = "480",
       .unit = "px", .help = "viewport" },
-    { "generator", FM_KEY_ENUM, ANY, AT(generator), .values = { "layers", "mesh", "bunny-in-cube", "palace", "hairball" },
+    { "generator", FM_KEY_ENUM, ANY, AT(generator), .values = { "layers", "mesh", "bunny-in-cube", "palace", "hairball", "engine", "temple", "hotel", "ivy" },
       .fallback = "layers", .help = "what makes the scene" },
     { "n", FM_KEY_UINT, LAYERS, AT(n), .low = 0, .high = 65536, .fallback = "none",
       .optional = true, .absent = FM_NOT_GIVEN, .help = "layers" },

@@ -24,6 +24,10 @@ static fm_status fill(fm_scene *scene, fm_error *err)
         return bunny_in_cube_generate(scene, err);
     case FM_GENERATOR_PALACE:
     case FM_GENERATOR_HAIRBALL:
+    case FM_GENERATOR_ENGINE:
+    case FM_GENERATOR_TEMPLE:
+    case FM_GENERATOR_HOTEL:
+    case FM_GENERATOR_IVY:
         return procedural_generate(scene, err);
     }
     return fm_fail(err, FM_INVALID, "a scene without a generator");

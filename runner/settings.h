@@ -22,6 +22,10 @@ typedef enum fm_generator {
     FM_GENERATOR_BUNNY_IN_CUBE,
     FM_GENERATOR_PALACE,
     FM_GENERATOR_HAIRBALL,
+    FM_GENERATOR_ENGINE,
+    FM_GENERATOR_TEMPLE,
+    FM_GENERATOR_HOTEL,
+    FM_GENERATOR_IVY,
 } fm_generator;
 
 typedef enum fm_order {
