@@ -81,9 +81,11 @@ void workload_name(char *name, size_t room, const fm_result_files *results, cons
     name[0] = '\0';
     for (size_t i = 0; i < WORKLOAD_COLUMNS && used + 40 < room; i++) {
         bool differs = false;
-        for (size_t j = 0; j < results->count && !differs; j++)
-            differs = (takes == NULL || takes[j]) && !same_column(result, &results->cases[j], i);
-        if (!differs || (!workload_columns[i].is_text && isnan(number_of(result, i))))
+        for (size_t j = 0; j < results->count && takes != NULL && !differs; j++)
+            differs = takes[j] && !same_column(result, &results->cases[j], i);
+        const bool is_known = workload_columns[i].is_text ? text_of(result, i)[0] != '\0'
+                                                          : !isnan(number_of(result, i));
+        if (!differs || !is_known)
             continue;
         if (workload_columns[i].is_text)
             used += (size_t)snprintf(name + used, room - used, ", %.24s", text_of(result, i));

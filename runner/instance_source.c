@@ -65,6 +65,19 @@ static bool emits_first(const fm_instance *instance, const fm_pass *pass)
     return true;
 }
 
+static bool release_exchanges(const fm_instance *instance)
+{
+    switch (instance->desc.settings->release) {
+    case FM_RELEASE_AUTO:
+        break;
+    case FM_RELEASE_STORE:
+        return false;
+    case FM_RELEASE_EXCHANGE:
+        return true;
+    }
+    return instance->device->caps.needs_lock_barriers;
+}
+
 static void define_all(fm_text *text, const fm_instance *instance, const fm_pass *pass)
 {
     const fm_device_caps *caps = &instance->device->caps;
@@ -72,6 +85,7 @@ static void define_all(fm_text *text, const fm_instance *instance, const fm_pass
     shader_define(text, "K", instance->workload.k > 0 ? instance->workload.k : 1);
     shader_define(text, "N", instance->workload.n > 0 ? instance->workload.n : 1);
     shader_define(text, "FM_SPIN_MAX", caps->loop_limit > 0 ? SPIN_MAX_SOFTWARE : SPIN_MAX);
+    shader_define(text, "FM_LOCK_EXCHANGE", release_exchanges(instance));
     shader_define(text, "FM_EXCLUSIVE", pass->exclusive && instance->is_spin_locked);
     shader_define(text, "FM_INTERLOCK", has_interlock(instance, pass));
     shader_define(text, "FM_TARGETS", pass_has_fixed_function(pass));

@@ -9,10 +9,11 @@ _Static_assert(
     sizeof(fm_generator) == sizeof(unsigned) && sizeof(fm_order) == sizeof(unsigned) &&
         sizeof(fm_depths) == sizeof(unsigned) && sizeof(fm_colours) == sizeof(unsigned) &&
         sizeof(fm_alphas) == sizeof(unsigned) && sizeof(fm_lock) == sizeof(unsigned) &&
-        sizeof(fm_buffers) == sizeof(unsigned) && sizeof(fm_pool) == sizeof(unsigned) &&
-        sizeof(fm_full_screen) == sizeof(unsigned) && sizeof(fm_culling) == sizeof(unsigned) &&
-        sizeof(fm_cull_range) == sizeof(unsigned) && sizeof(fm_cull_test) == sizeof(unsigned) &&
-        sizeof(fm_cull_memory) == sizeof(unsigned) && sizeof(fm_own_cull) == sizeof(unsigned),
+        sizeof(fm_release) == sizeof(unsigned) && sizeof(fm_buffers) == sizeof(unsigned) &&
+        sizeof(fm_pool) == sizeof(unsigned) && sizeof(fm_full_screen) == sizeof(unsigned) &&
+        sizeof(fm_culling) == sizeof(unsigned) && sizeof(fm_cull_range) == sizeof(unsigned) &&
+        sizeof(fm_cull_test) == sizeof(unsigned) && sizeof(fm_cull_memory) == sizeof(unsigned) &&
+        sizeof(fm_own_cull) == sizeof(unsigned),
     "FM_KEY_ENUM stores an unsigned");
 
 #define AT(field) .offset = offsetof(fm_settings, field)
@@ -81,6 +82,8 @@ const fm_key fm_keys[] = {
       .optional = true, .absent = 0, .help = "nearest fragments to keep" },
     { "lock", FM_KEY_ENUM, FM_SCOPE_CASE, AT(lock), .values = { "spin", "interlock" },
       .fallback = "spin", .help = "of exclusive passes" },
+    { "release", FM_KEY_ENUM, FM_SCOPE_CASE, AT(release), .values = { "auto", "store", "exchange" },
+      .fallback = "auto", .help = "of the spin lock" },
     { "buffers", FM_KEY_ENUM, FM_SCOPE_CASE, AT(buffers), .values = { "auto", "bound", "address" },
       .fallback = "auto", .help = "how shaders reach them" },
     { "pool", FM_KEY_ENUM, FM_SCOPE_CASE, AT(pool), .values = { "preallocated", "per-frame" },

@@ -59,6 +59,8 @@ typedef enum fm_alphas {
 } fm_alphas;
 
 typedef enum fm_lock { FM_LOCK_SPIN, FM_LOCK_INTERLOCK } fm_lock;
+/* How a spin lock is let go: by what the device needs, a plain store, or an atomic exchange. */
+typedef enum fm_release { FM_RELEASE_AUTO, FM_RELEASE_STORE, FM_RELEASE_EXCHANGE } fm_release;
 typedef enum fm_buffers { FM_BUFFERS_AUTO, FM_BUFFERS_BOUND, FM_BUFFERS_ADDRESS } fm_buffers;
 typedef enum fm_pool { FM_POOL_PREALLOCATED, FM_POOL_PER_FRAME } fm_pool;
 typedef enum fm_full_screen { FM_FULL_SCREEN_COMPUTE, FM_FULL_SCREEN_FRAGMENT } fm_full_screen;
@@ -107,6 +109,7 @@ typedef struct fm_settings {
     /* method and run */
     uint32_t k; /* 0: the method does not use it */
     fm_lock lock;
+    fm_release release;
     fm_buffers buffers;
     fm_pool pool;
     fm_full_screen full_screen;

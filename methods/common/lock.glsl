@@ -26,10 +26,10 @@ void fm_take(uvec2 pixel, float depth, uint colour)
         memoryBarrierBuffer(); // what this owner stored is visible before the lock is free
 #endif
         if (is_mine) {
-#if FM_LOCK_BARRIERS
+#if FM_LOCK_EXCHANGE
             atomicExchange(fm_locks[lock], 0u);
 #else
-            fm_locks[lock] = 0u; // stores stay in order on such processors; an exchange costs more
+            fm_locks[lock] = 0u; // an exchange costs more, and is not needed where stores stay in order
 #endif
             is_done = true;
         }

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 void judging_begin(judging *to)
@@ -63,20 +64,31 @@ static void add(fm_verdict *verdict, const char *format, ...)
     va_end(arguments);
 }
 
+/* Which points decided, by what tells them from the others. */
+static void name_deciders(fm_verdict *verdict, const judging *to)
+{
+    char a[160], b[160] = "";
+    if (to->worst.a == NULL)
+        return;
+    bool *used = calloc(to->rows->results->count + 1, sizeof *used);
+    for (size_t i = 0; used != NULL && i < to->points->count; i++)
+        if (to->points->points[i].result != NULL)
+            used[to->points->points[i].result - to->rows->results->cases] = true;
+    claim_point_name(a, to->rows, used, to->worst.a);
+    if (to->worst.b != NULL)
+        claim_point_name(b, to->rows, used, to->worst.b);
+    add(verdict, "%s: %s%s%s", to->claim->form == FM_CLAIM_ANY ? "best" : "decided at", a,
+        to->worst.b != NULL ? " / " : "", b);
+    free(used);
+}
+
 void judging_end(fm_verdict *verdict, const judging *to)
 {
-    char a[160], b[160];
     size_t few = 0;
     *verdict = (fm_verdict){ .kind = to->worst.kind, .measured = to->worst.measured };
     if (to->count > 1)
         add(verdict, "%zu compared, %.4g to %.4g", to->count, to->least, to->greatest);
-    if (to->worst.a != NULL) {
-        claim_point_name(a, to->rows, to->worst.a);
-        if (to->worst.b != NULL)
-            claim_point_name(b, to->rows, to->worst.b);
-        add(verdict, "%s: %s%s%s", to->claim->form == FM_CLAIM_ANY ? "best" : "decided at", a,
-            to->worst.b != NULL ? " / " : "", to->worst.b != NULL ? b : "");
-    }
+    name_deciders(verdict, to);
     for (size_t i = 0; i < to->points->count; i++)
         few += to->points->points[i].has_few_samples;
     if (few > 0)

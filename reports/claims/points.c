@@ -310,7 +310,8 @@ static void sort_points(const fm_claim *claim, fm_claim_points *points)
     }
 }
 
-void claim_point_name(char name[160], const fm_claim_rows *rows, const fm_claim_point *point)
+void claim_point_name(char name[160], const fm_claim_rows *rows, const bool *used_cases,
+                      const fm_claim_point *point)
 {
     char title[96];
     if (point->result == NULL) {
@@ -321,7 +322,7 @@ void claim_point_name(char name[160], const fm_claim_rows *rows, const fm_claim_
     }
     group_series_title(title, point->result);
     const size_t used = (size_t)snprintf(name, 160, "%.80s", title);
-    workload_name(name + used, 160 - used, rows->results, rows->takes, point->result);
+    workload_name(name + used, 160 - used, rows->results, used_cases, point->result);
 }
 
 fm_status claim_points_make(fm_claim_points *points, const fm_claim *claim,

@@ -42,7 +42,9 @@ bool claim_point_same_series(const fm_claim *claim, const fm_claim_point *a,
 /* The same workload, whatever the method. */
 bool claim_point_same_workload(const fm_claim *claim, const fm_claim_point *a,
                                const fm_claim_point *b);
-/* "K+B-Array, k 8, n 128": tells a point from the others. */
-void claim_point_name(char name[160], const fm_claim_rows *rows, const fm_claim_point *point);
+/* "K+B-Array, k 8, n 128": tells a point from the others. used: [results->count], the cases of all
+ * points; NULL: the title alone. */
+void claim_point_name(char name[160], const fm_claim_rows *rows, const bool *used,
+                      const fm_claim_point *point);
 
 #endif
