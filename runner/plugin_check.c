@@ -198,6 +198,22 @@ static fm_status check_head(const fm_method_desc *m, fm_error *err)
     return status;
 }
 
+static fm_status check_body(const fm_checked_method *check, fm_error *err)
+{
+    if (check->method->technique != NULL)
+        return check_technique(check, err);
+    if ((check->method->feeds & FM_FEED_FRAMES) != 0)
+        return fm_fail(err, FM_INVALID, "feeds: 'frames' is for methods with a technique");
+    fm_status status = check_resources(check, err);
+    if (status == FM_OK)
+        status = check_totals(check, err);
+    if (status == FM_OK)
+        status = check_passes(check, err);
+    if (status == FM_OK)
+        status = check_loops(check, err);
+    return status;
+}
+
 static fm_status check_all(const fm_method_desc *method, fm_error *err)
 {
     fm_checked_method check = { .method = method,
@@ -218,15 +234,7 @@ static fm_status check_all(const fm_method_desc *method, fm_error *err)
         status = take_lists(&check, err);
     if (status == FM_OK)
         status = check_options(&check, err);
-    if (status == FM_OK)
-        status = check_resources(&check, err);
-    if (status == FM_OK)
-        status = check_totals(&check, err);
-    if (status == FM_OK)
-        status = check_passes(&check, err);
-    if (status == FM_OK)
-        status = check_loops(&check, err);
-    return status;
+    return status == FM_OK ? check_body(&check, err) : status;
 }
 
 fm_status plugin_check(const fm_method_desc *method, const char *name, fm_error *err)

@@ -28,6 +28,8 @@ fm_status check_resources(const fm_checked_method *check, fm_error *err);
 fm_status check_totals(const fm_checked_method *check, fm_error *err);
 fm_status check_passes(const fm_checked_method *check, fm_error *err);
 fm_status check_loops(const fm_checked_method *check, fm_error *err);
+/* Instead of resources, totals, passes and loops. */
+fm_status check_technique(const fm_checked_method *check, fm_error *err);
 
 /* Length of a list that ends at the first NULL name; the i-th name lies i * stride_bytes behind
  * first. FM_INVALID: a name stands behind the end, or one is empty or twice there. */

@@ -407,6 +407,10 @@ typedef struct fm_method_desc {
     /* FM_KEEPS_K_NEAREST only: the total that is the frame's k where the method chooses it, from 1
      * to the axis k. Truth wants that many, samples.csv tells them as k_chosen. NULL: k itself. */
     const char *k_total;
+
+    /* Techniques of the simulated tile-based GPU have this in place of resources, totals, passes,
+     * loops and the hooks above, and FM_FEED_FRAMES for their only feed (fragmark/technique.h). */
+    const struct fm_technique *technique;
 } fm_method_desc;
 
 /* The one symbol of a plugin. Compile plugins with hidden visibility. */
