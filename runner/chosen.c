@@ -27,10 +27,29 @@ static void add_method(fm_chosen *chosen, const fm_plugin_entry *entry)
     chosen->methods[chosen->method_count++] = entry;
 }
 
+static uint32_t chosen_feeds(const fm_chosen *chosen)
+{
+    const fm_text_list *names = &chosen->selection.names[FM_LISTED_FEEDS];
+    uint32_t feeds = 0;
+    for (size_t i = 0; i < names->count; i++)
+        feeds |= feed_from_name(names->items[i]);
+    return feeds;
+}
+
+/* Whether the method belongs to the world of fragments, or of frames, that the feeds are of. */
+static bool takes_some(const fm_plugin_entry *entry, uint32_t feeds)
+{
+    const uint32_t taken = entry->plugin != NULL ? entry->plugin->method->feeds : 0;
+    return taken == FM_FEED_FRAMES ? (feeds & FM_FEED_FRAMES) != 0
+                                   : (feeds & ~(uint32_t)FM_FEED_FRAMES) != 0;
+}
+
+/* All that are no controls, of the kind that the feeds are for. */
 static void add_all_methods(fm_chosen *chosen, const fm_plugin_list *plugins)
 {
+    const uint32_t feeds = chosen_feeds(chosen);
     for (size_t i = 0; i < plugins->count; i++)
-        if (!is_control(&plugins->entries[i]))
+        if (!is_control(&plugins->entries[i]) && takes_some(&plugins->entries[i], feeds))
             add_method(chosen, &plugins->entries[i]);
 }
 
@@ -110,12 +129,10 @@ static fm_status check_device(const char *name, const char *origin, fm_error *er
 {
     const char *known[DEVICES_MAX];
     size_t count = 0;
-    const size_t length = strcspn(name, ":");
-    for (; count < DEVICES_MAX && fm_device_table[count] != NULL; count++) {
+    if (device_find(name) != NULL)
+        return FM_OK;
+    for (; count < DEVICES_MAX && fm_device_table[count] != NULL; count++)
         known[count] = fm_device_table[count]->name;
-        if (strlen(known[count]) == length && strncmp(known[count], name, length) == 0)
-            return FM_OK;
-    }
     return unknown(origin, "device", name, text_nearest(name, known, count), err);
 }
 
@@ -223,15 +240,22 @@ static fm_status check_sweep(const fm_chosen *chosen, const fm_sweep *sweep, fm_
     return FM_OK;
 }
 
+/* The feed of runs that name none. */
+static const char *usual_feed(const fm_chosen *chosen)
+{
+    const char *first = chosen->selection.names[FM_LISTED_DEVICES].items[0];
+    return device_feeds(device_find(first)) == FM_FEED_FRAMES ? "frames" : "raster";
+}
+
 static fm_status look_up(fm_chosen *chosen, const fm_plugin_list *plugins, fm_error *err)
 {
     fm_status status = fill_list(chosen, FM_LISTED_SCENES, "layers", err);
     if (status == FM_OK)
         status = fill_list(chosen, FM_LISTED_DEVICES, "vulkan", err);
     if (status == FM_OK)
-        status = fill_list(chosen, FM_LISTED_FEEDS, "raster", err);
-    if (status == FM_OK)
         status = check_list(chosen, FM_LISTED_DEVICES, check_device, err);
+    if (status == FM_OK)
+        status = fill_list(chosen, FM_LISTED_FEEDS, usual_feed(chosen), err);
     if (status == FM_OK)
         status = check_list(chosen, FM_LISTED_FEEDS, check_feed, err);
     if (status == FM_OK)

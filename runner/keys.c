@@ -23,8 +23,10 @@ _Static_assert(
 #define MESH_FILE BY(1u << FM_GENERATOR_MESH | 1u << FM_GENERATOR_BUNNY_IN_CUBE)
 /* bunny-in-cube's camera and place follow from its pixel density. */
 #define DENSITY BY(1u << FM_GENERATOR_LAYERS | 1u << FM_GENERATOR_BUNNY_IN_CUBE)
-#define MESH    BY(~(1u << FM_GENERATOR_LAYERS | 1u << FM_GENERATOR_BUNNY_IN_CUBE))
-#define QUIET   .scope = FM_SCOPE_CASE, .is_quiet = true
+#define MESH                                                                                       \
+    BY(~(1u << FM_GENERATOR_LAYERS | 1u << FM_GENERATOR_BUNNY_IN_CUBE | 1u << FM_GENERATOR_FRAMES))
+#define FRAMES BY(1u << FM_GENERATOR_FRAMES)
+#define QUIET  .scope = FM_SCOPE_CASE, .is_quiet = true
 
 /* clang-format off */
 const fm_key fm_keys[] = {
@@ -32,7 +34,7 @@ const fm_key fm_keys[] = {
       .unit = "px", .help = "viewport" },
     { "height_px", FM_KEY_UINT, ANY, AT(height_px), .low = 1, .high = 16384, .fallback = "480",
       .unit = "px", .help = "viewport" },
-    { "generator", FM_KEY_ENUM, ANY, AT(generator), .values = { "layers", "mesh", "bunny-in-cube", "palace", "hairball", "engine", "temple", "hotel", "ivy" },
+    { "generator", FM_KEY_ENUM, ANY, AT(generator), .values = { "layers", "mesh", "bunny-in-cube", "palace", "hairball", "engine", "temple", "hotel", "ivy", "frames" },
       .fallback = "layers", .help = "what makes the scene" },
     { "n", FM_KEY_UINT, LAYERS, AT(n), .low = 0, .high = 65536, .fallback = "none",
       .optional = true, .absent = FM_NOT_GIVEN, .help = "layers" },
@@ -78,6 +80,40 @@ const fm_key fm_keys[] = {
       .help = "copies of the mesh" },
     { "instance_offset", FM_KEY_VECTOR, MESH, AT(instance_offset), .low = -1e4, .high = 1e4,
       .fallback = "0 0 0", .help = "from copy to copy, in box sizes" },
+    { "sequence_frames", FM_KEY_UINT, FRAMES, AT(sequence_frames), .low = 2, .high = 10000,
+      .fallback = "60", .help = "frames of the sequence" },
+    { "backgrounds", FM_KEY_UINT, FRAMES, AT(backgrounds), .low = 0, .high = 16, .fallback = "2",
+      .help = "opaque layers of the whole screen, drawn first, without depth" },
+    { "sprites", FM_KEY_UINT, FRAMES, AT(sprites), .low = 0, .high = 20000, .fallback = "100",
+      .help = "quads without depth" },
+    { "triangles", FM_KEY_UINT, FRAMES, AT(triangles), .low = 0, .high = 200000, .fallback = "0",
+      .help = "of objects with depth" },
+    { "object_px", FM_KEY_REAL, FRAMES, AT(object_px), .low = 4, .high = 2000, .fallback = "64",
+      .unit = "px", .help = "mean side of sprites; of objects four times that" },
+    { "depth_complexity", FM_KEY_REAL, FRAMES, AT(depth_complexity), .low = 0, .high = 32,
+      .fallback = "3", .help = "screens that objects with depth fill" },
+    { "front_to_back", FM_KEY_REAL, FRAMES, AT(front_to_back), .low = 0, .high = 1, .fallback = "0",
+      .help = "order of objects: 0 random, 1 nearest first" },
+    { "camera_px", FM_KEY_REAL, FRAMES, AT(camera_px), .low = 0, .high = 500, .fallback = "0",
+      .unit = "px", .help = "how far the camera moves in a frame in which it does" },
+    { "camera_moves", FM_KEY_REAL, FRAMES, AT(camera_moves), .low = 0, .high = 1, .fallback = "1",
+      .help = "share of such frames" },
+    { "moving", FM_KEY_REAL, FRAMES, AT(moving), .low = 0, .high = 1, .fallback = "0.05",
+      .help = "share of sprites and objects that move by themselves" },
+    { "hud", FM_KEY_REAL, FRAMES, AT(hud), .low = 0, .high = 1, .fallback = "0.1",
+      .help = "share of the screen under panels, drawn last" },
+    { "hud_opaque", FM_KEY_REAL, FRAMES, AT(hud_opaque), .low = 0, .high = 1, .fallback = "1",
+      .help = "share of the panels that is opaque" },
+    { "hidden_churn", FM_KEY_REAL, FRAMES, AT(hidden_churn), .low = 0, .high = 1, .fallback = "0",
+      .help = "probability that what lies under a piece of opaque panel changes in a frame" },
+    { "translucent", FM_KEY_REAL, FRAMES, AT(translucent), .low = 0, .high = 1, .fallback = "0.1",
+      .help = "share of sprites that are blended" },
+    { "fragment_instructions", FM_KEY_UINT, FRAMES, AT(fragment_instructions), .low = 1,
+      .high = 10000, .fallback = "8", .help = "of a shader, for each fragment" },
+    { "vertex_instructions", FM_KEY_UINT, FRAMES, AT(vertex_instructions), .low = 1, .high = 10000,
+      .fallback = "12", .help = "of a shader, for each vertex" },
+    { "texture_bytes", FM_KEY_REAL, FRAMES, AT(texture_bytes), .low = 0, .high = 64,
+      .fallback = "2", .unit = "B", .help = "from memory, for each shaded fragment" },
     { "k", FM_KEY_UINT, FM_SCOPE_CASE, AT(k), .low = 1, .high = 4096, .fallback = "8",
       .optional = true, .absent = 0, .help = "nearest fragments to keep" },
     { "lock", FM_KEY_ENUM, FM_SCOPE_CASE, AT(lock), .values = { "spin", "interlock" },
@@ -102,6 +138,8 @@ const fm_key fm_keys[] = {
       .fallback = "own", .help = "the map lies in the method's largest fixed buffer" },
     { "own_cull", FM_KEY_ENUM, QUIET, AT(own_cull), .values = { "on", "off" },
       .fallback = "on", .help = "the method's own test before its lock" },
+    { "model", FM_KEY_TEXT, FM_SCOPE_CASE, AT(model), .fallback = "",
+      .help = "of the simulated GPU: \"NAME=VALUE ...\", names as in its parameters.yml" },
     { "launches", FM_KEY_UINT, FM_SCOPE_RUN, AT(launches), .low = 1, .high = 1000,
       .fallback = "5", .help = "processes that measure a case" },
     { "frames", FM_KEY_UINT, FM_SCOPE_RUN, AT(frames), .low = 1, .high = 10000,

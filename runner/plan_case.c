@@ -5,6 +5,7 @@
 #include <xxhash.h>
 
 #include "culling.h"
+#include "device/device.h"
 
 static const struct {
     uint32_t feed;
@@ -98,6 +99,8 @@ static void forget_unused_method_keys(fm_settings *settings, const fm_method_des
         culling_forget(settings);
     if (!has_pixel_pass(method))
         settings->full_screen = FM_FULL_SCREEN_COMPUTE;
+    if (method->technique == NULL)
+        memset(settings->model, 0, sizeof settings->model);
 }
 
 static fm_status make_settings(fm_settings *settings, const fm_plan_point *point, fm_error *err)
@@ -161,6 +164,21 @@ static void skip_for_feed(fm_case *made, const fm_method_desc *method)
     skip_list(made->skip, sizeof made->skip, start, taken, count);
 }
 
+/* Frames are for their own device and from their own generator, fragments for and from all others.
+ */
+static void skip_for_place(fm_case *made)
+{
+    const uint32_t feed = feed_from_name(made->feed);
+    const bool has_frames = made->settings.generator == FM_GENERATOR_FRAMES;
+    const fm_device_ops *ops = device_find(made->device);
+    if (ops != NULL && (device_feeds(ops) & feed) == 0)
+        snprintf(made->skip, sizeof made->skip, "feed '%s': device %s does not take it", made->feed,
+                 ops->name);
+    else if (has_frames != (feed == FM_FEED_FRAMES))
+        snprintf(made->skip, sizeof made->skip, "feed '%s': the scene is made of %s", made->feed,
+                 has_frames ? "frames" : "fragments");
+}
+
 static void skip_for_choice(fm_case *made, const fm_method_desc *method)
 {
     for (size_t i = 0; i < made->choice_count && made->skip[0] == '\0'; i++) {
@@ -211,6 +229,8 @@ static void make_skip(fm_case *made, const fm_plan_point *point)
         return;
     }
     skip_for_feed(made, entry->plugin->method);
+    if (made->skip[0] == '\0')
+        skip_for_place(made);
     if (made->skip[0] == '\0')
         skip_for_k(made, entry->plugin->method);
     if (made->skip[0] == '\0')

@@ -29,8 +29,10 @@ static fm_status fill(fm_scene *scene, fm_error *err)
     case FM_GENERATOR_HOTEL:
     case FM_GENERATOR_IVY:
         return procedural_generate(scene, err);
+    case FM_GENERATOR_FRAMES:
+        break; /* no scene of fragments: frames.h */
     }
-    return fm_fail(err, FM_INVALID, "a scene without a generator");
+    return fm_fail(err, FM_INVALID, "generator frames: its scenes are for feed frames");
 }
 
 fm_status scene_create(fm_scene **scene, const fm_settings *settings, fm_error *err)

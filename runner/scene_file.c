@@ -182,7 +182,7 @@ fm_status scene_file_value(char text[FM_PATH_MAX_BYTES], const fm_key *key, cons
         if (join_vector(text, value) == FM_OK)
             return FM_OK;
     } else if (value->kind == FM_YAML_SCALAR && key->type == FM_KEY_TEXT &&
-               value->text[0] != '\0') {
+               key->scope == FM_SCOPE_SCENE && value->text[0] != '\0') {
         if (text_path_beside(text, FM_PATH_MAX_BYTES, file, value->text))
             return FM_OK;
     } else if (value->kind == FM_YAML_SCALAR) {

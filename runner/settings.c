@@ -230,6 +230,10 @@ static fm_status complete_n(fm_settings *settings, fm_error *err)
 
 fm_status settings_finish(fm_settings *settings, fm_error *err)
 {
+    if (settings->generator == FM_GENERATOR_FRAMES) {
+        settings->n = settings->r = 0;
+        return FM_OK;
+    }
     if (settings->generator != FM_GENERATOR_LAYERS)
         return finish_mesh(settings, err);
     const fm_status status = complete_n(settings, err);

@@ -26,6 +26,7 @@ typedef enum fm_generator {
     FM_GENERATOR_TEMPLE,
     FM_GENERATOR_HOTEL,
     FM_GENERATOR_IVY,
+    FM_GENERATOR_FRAMES, /* a sequence of draw calls, for the simulated GPU */
 } fm_generator;
 
 typedef enum fm_order {
@@ -106,8 +107,19 @@ typedef struct fm_settings {
     uint32_t instances;
     double instance_offset[3]; /* in box sizes */
 
+    /* frames: what generators/frame_sequences.h makes of them */
+    uint32_t sequence_frames;
+    uint32_t backgrounds, sprites, triangles;
+    double object_px, depth_complexity, front_to_back;
+    double camera_px, camera_moves, moving;
+    double hud, hud_opaque, hidden_churn, translucent;
+    uint32_t fragment_instructions, vertex_instructions;
+    double texture_bytes;
+
     /* method and run */
-    uint32_t k; /* 0: the method does not use it */
+    char model[FM_PATH_MAX_BYTES]; /* techniques: "NAME=VALUE ..." of
+                                      device/tbr/models/parameters.yml */
+    uint32_t k;                    /* 0: the method does not use it */
     fm_lock lock;
     fm_release release;
     fm_buffers buffers;

@@ -127,7 +127,8 @@ static bool is_told(const fm_key *key, const fm_settings *settings, const fm_set
 {
     char usual[FM_PATH_MAX_BYTES];
     const bool is_recipe = key->scope == FM_SCOPE_SCENE &&
-                           settings->generator == FM_GENERATOR_LAYERS &&
+                           (settings->generator == FM_GENERATOR_LAYERS ||
+                            settings->generator == FM_GENERATOR_FRAMES) &&
                            key_is_read(key, settings->generator);
     if ((key->scope != FM_SCOPE_CASE && !is_recipe) || summary_has_column(key->name) ||
         strcmp(key->name, "generator") == 0)

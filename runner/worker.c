@@ -11,6 +11,7 @@
 #include "device/device.h"
 #include "measure.h"
 #include "plugin.h"
+#include "technique_job.h"
 
 /* Largest difference of a timed image from its own captured fragments composited in double. */
 #define SELF_MAX_ABS 1e-6
@@ -30,6 +31,7 @@ typedef struct launch_job {
     fm_stage *stage;
     char hull[FM_PATH_MAX_BYTES + 8]; /* beside the truth, for later launches of the scene */
     fm_measurement measurement;
+    uint64_t wrong_tiles; /* of a technique */
     fm_error error;
     const char *failed_in; /* "plugin": a failure is the plugin's fault */
 } launch_job;
@@ -271,6 +273,13 @@ static const char *status_word(const launch_job *job, fm_status status)
 static bool is_wrong(launch_job *job)
 {
     const fm_measurement *m = &job->measurement;
+    if (job->method == NULL)
+        return false;
+    if (job->wrong_tiles > 0 && (job->method->method->traits & FM_TRAIT_EXACT) != 0) {
+        fm_fail(&job->error, FM_OK, "declared exact, but %" PRIu64 " tiles are not the baseline's",
+                job->wrong_tiles);
+        return true;
+    }
     if (!m->is_checked || (job->desc.traits & FM_TRAIT_EXACT) == 0)
         return false;
     if (m->check.missing + m->check.extra + m->check.misordered + m->lost > 0) {
@@ -291,9 +300,36 @@ static bool is_wrong(launch_job *job)
 
 /* ---- jobs ---- */
 
+/* Frames: the simulated GPU runs the whole sequence; a truth job has no method, the baseline. */
+static fm_status frames_job(launch_job *job)
+{
+    const fm_technique_job desc = {
+        .method = job->method != NULL ? job->method->method : NULL,
+        .settings = &job->settings,
+        .choices = job->choices,
+        .choice_count = job->choice_count,
+        .truth = text_of(job, "truth"),
+        .image = text_of(job, "image"),
+    };
+    fm_status status = open_device(job);
+    if (status == FM_OK)
+        status = not_the_plugins(settings_finish(&job->settings, &job->error));
+    if (status == FM_OK)
+        status =
+            not_the_plugins(technique_job_run(job->result, &job->wrong_tiles, &desc, &job->error));
+    return status;
+}
+
+static bool has_frames(const launch_job *job)
+{
+    return feed_from_name(text_of(job, "feed")) == FM_FEED_FRAMES;
+}
+
 static fm_status truth_job(launch_job *job)
 {
     const char *path = text_of(job, "truth");
+    if (has_frames(job))
+        return frames_job(job);
     fm_status status = open_device(job);
     if (status == FM_OK)
         status = open_scene(job);
@@ -359,6 +395,8 @@ static fm_status measure(launch_job *job)
 static fm_status measure_job(launch_job *job)
 {
     fm_status status = open_plugins(job);
+    if (status == FM_OK && has_frames(job))
+        return frames_job(job);
     if (status == FM_OK)
         status = read_feed(job);
     if (status == FM_OK)

@@ -4,6 +4,7 @@
 
 #include "device/dummy/dummy.h"
 #include "device/osmesa/osmesa.h"
+#include "device/tbr/device.h"
 #include "device/vulkan/vulkan.h"
 #include "text.h"
 
@@ -12,8 +13,7 @@ const fm_device_ops *const fm_device_table[] = {
 #ifdef FM_HAS_OSMESA
     &osmesa_device,
 #endif
-    &dummy_device,
-    NULL,
+    &tbr_device,    &dummy_device, NULL,
 };
 
 static const uint32_t format_bytes[] = {
@@ -52,22 +52,35 @@ void ledger_remove(fm_ledger *ledger, fm_owner owner, uint64_t bytes)
     ledger->bytes[owner] -= bytes;
 }
 
+const fm_device_ops *device_find(const char *name)
+{
+    const size_t length = strcspn(name, ":");
+    for (const fm_device_ops *const *ops = fm_device_table; *ops != NULL; ops++)
+        if (strlen((*ops)->name) == length && strncmp((*ops)->name, name, length) == 0)
+            return *ops;
+    return NULL;
+}
+
+uint32_t device_feeds(const fm_device_ops *ops)
+{
+    return ops->feeds != 0 ? ops->feeds : FM_FEEDS_FRAGMENTS;
+}
+
 fm_status device_open(fm_device **device, const char *name, const fm_device_desc *desc,
                       fm_error *err)
 {
+    const fm_device_ops *ops = device_find(name);
     const char *colon = strchr(name, ':');
-    const size_t length = colon != NULL ? (size_t)(colon - name) : strlen(name);
     const char *known[8];
     size_t count = 0;
     *device = NULL;
-    for (const fm_device_ops *const *ops = fm_device_table; *ops != NULL; ops++) {
-        if (strlen((*ops)->name) == length && strncmp((*ops)->name, name, length) == 0) {
-            fm_device_desc chosen = *desc;
-            chosen.selector = colon != NULL ? colon + 1 : NULL;
-            return (*ops)->open(device, &chosen, err);
-        }
-        known[count++] = (*ops)->name;
+    if (ops != NULL) {
+        fm_device_desc chosen = *desc;
+        chosen.selector = colon != NULL ? colon + 1 : NULL;
+        return ops->open(device, &chosen, err);
     }
+    for (; fm_device_table[count] != NULL; count++)
+        known[count] = fm_device_table[count]->name;
     const char *nearest = text_nearest(name, known, count);
     return fm_fail(err, FM_INVALID, "no device '%s'; the nearest is '%s'", name,
                    nearest != NULL ? nearest : known[0]);

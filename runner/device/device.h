@@ -188,6 +188,8 @@ typedef struct fm_frame_times {
 /* The table. Functions that can fail return fm_status and fill *err. */
 typedef struct fm_device_ops {
     const char *name; /* "vulkan" */
+    uint32_t feeds;   /* FM_FEED_*; 0 is FM_FEEDS_FRAGMENTS. A device of feed `frames` alone runs no
+                         passes: of the functions below only those up to validation_errors count */
 
     /* Lists what could be opened; *count is in: room, out: how many. */
     fm_status (*list)(fm_device_entry *entries, size_t *count, fm_error *err);
@@ -245,6 +247,10 @@ struct fm_device {
 /* All devices of this build, ending with NULL; "vulkan" stands first. */
 extern const fm_device_ops *const fm_device_table[];
 
+/* The table of the device that a name such as "vulkan:1" begins with; NULL: none. */
+const fm_device_ops *device_find(const char *name);
+/* What the device takes. */
+uint32_t device_feeds(const fm_device_ops *ops);
 /* Opens "vulkan", "vulkan:1", "vulkan:llvmpipe", "osmesa", "dummy". FM_INVALID: no such device,
  * with the nearest name. */
 fm_status device_open(fm_device **device, const char *name, const fm_device_desc *desc,
