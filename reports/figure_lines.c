@@ -12,7 +12,8 @@
 static fm_interval y_of(const fm_figure_job *at, const fm_case_row *result)
 {
     size_t samples;
-    return result_files_interval(&samples, at->results, result, &at->from->y, 1);
+    return result_files_interval(&samples, at->results, result, at->from->ys.names,
+                                 at->from->ys.count);
 }
 
 /* The case that ratios at x are taken to; NULL: it was not measured there. */
@@ -89,6 +90,18 @@ static int compare_x(const void *left, const void *right)
     return (a->x > b->x) - (a->x < b->x);
 }
 
+/* Series of one method with other options: other markers, and every second one dashed. */
+static void tell_variants_apart(fm_series *series, const fm_group *group, size_t first)
+{
+    size_t variant = 0;
+    for (size_t i = 1; i <= first; i++)
+        variant += strcmp(group->cases[i - 1]->method, group->cases[first]->method) == 0 &&
+                   !group_same_series(group->cases[i - 1], group->cases[i]);
+    series->marker = (fm_marker)(((size_t)series->marker + variant) % FM_MARKER_COUNT);
+    if (variant % 2 == 1)
+        series->stroke = series->stroke == FM_STROKE_SOLID ? FM_STROKE_DASHED : FM_STROKE_SOLID;
+}
+
 static bool starts_series(const fm_group *group, size_t i)
 {
     return i == 0 || !group_same_series(group->cases[i - 1], group->cases[i]);
@@ -104,6 +117,7 @@ static fm_series *add_series(const fm_figure_job *at, fm_figure_job *axes, size_
     if (series == NULL)
         return NULL;
     style_series(series, &one->look);
+    tell_variants_apart(series, at->group, first);
     for (size_t i = first; i < at->group->count && group_same_series(at->group->cases[i], one);
          i++) {
         const fm_case_row *result = at->group->cases[i];
@@ -313,7 +327,7 @@ fm_status figure_make_lines(fm_figure_job *at, const fm_figure_job *reference, d
     size_t note = 0;
     snprintf(chart->notes[note++], sizeof chart->notes[0], "bars: 95 %% intervals");
     if (paper_values > own_values)
-        snprintf(chart->notes[note++], sizeof chart->notes[0], "hollow, dotted: the paper's");
+        snprintf(chart->notes[note++], sizeof chart->notes[0], "hollow: the paper");
     if (at->y_count > paper_values)
         snprintf(chart->notes[note++], sizeof chart->notes[0], "thin: %.50s",
                  reference->group->cases[0]->device_name);

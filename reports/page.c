@@ -61,11 +61,18 @@ void page_begin(fm_text *page, const fm_result_files *results)
     }
     add_fact(page, "when", provenance_fact(manifest, "started"));
     add_fact(page, "commit", provenance_fact(manifest, "git_commit"));
-    text_add(page, "</dl>\n<nav><a href=\"#speed\">Speed against error</a>"
-                   "<a href=\"#figures\">Figures</a><a href=\"#pictures\">Pictures</a>"
+    text_add(page, "</dl>\n");
+}
+
+void page_add_links(fm_text *page, const fm_name_list *papers)
+{
+    text_add(page, "<nav>");
+    for (size_t i = 0; i < papers->count; i++)
+        text_add(page, "<a href=\"#paper-%s\">%s</a>", papers->names[i],
+                 strcmp(papers->names[i], "none") == 0 ? "figures" : papers->names[i]);
+    text_add(page, "<a href=\"#pictures\">Pictures</a><a href=\"#speed\">Speed against error</a>"
                    "<a href=\"#notes\">Notes</a><a href=\"#guide\">How to read</a><a "
-                   "href=\"#machine\">Machine and methods</a>"
-                   "</nav>\n");
+                   "href=\"#machine\">Machine and methods</a></nav>\n");
 }
 
 void page_add_guide(fm_text *page)

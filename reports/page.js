@@ -52,7 +52,7 @@ for (const table of document.querySelectorAll(".table table")) {
   table.classList.add("sortable");
   for (const heading of table.tHead.rows[0].cells)
     heading.addEventListener("click", () => sort(table, heading));
-  if (table.tBodies[0].rows.length > 8) addFilter(table);
+  if (table.tBodies[0].rows.length > 8 || table.matches(".verdicts")) addFilter(table);
 }
 for (const counts of document.querySelectorAll(".counts"))
   addVerdicts(counts, counts.parentNode.querySelector(`#${CSS.escape(counts.dataset.table)}`));

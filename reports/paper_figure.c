@@ -30,7 +30,10 @@ static fm_status read_chart(fm_figure_chart *chart, const fm_yaml *map, const fm
     if (status == FM_OK)
         status = field_word(&kind, map, "kind", kinds, 2, at);
     if (status == FM_OK)
-        status = field_text(&chart->y, map, "y", kind == FM_FIGURE_LINES, at);
+        status = field_list(&chart->ys, map, "y", at);
+    if (status == FM_OK && kind == FM_FIGURE_LINES && chart->ys.count == 0)
+        return fm_fail(at->err, FM_INVALID, "%s:%u: y is missing", at->path, map->line);
+    chart->y = chart->ys.count > 0 ? chart->ys.names[0] : "";
     if (status == FM_OK)
         status = field_text(&chart->ratio_to, map, "ratio_to", false, at);
     if (status == FM_OK)

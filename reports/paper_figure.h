@@ -12,7 +12,7 @@
  *       kind: lines                or stacked-bars
  *       title: ...
  *       x: k                       a number column of summary.csv
- *       y: frame_ms                lines: any metric; frame_ms has intervals
+ *       y: frame_ms                lines: any metric, or a list of which the sum is drawn
  *       parts: [clear_ms, ...]     stacked-bars: metrics, from the bottom up
  *       ratio_to: kplus-array      lines: y over that method's at the same x
  *       with_paper: true           lines: the paper's points, hollow
@@ -43,7 +43,9 @@ enum { FM_FIGURE_CHARTS = 8, FM_FIGURE_PARTS = 8, FM_FIGURE_POINTS = 256 };
 typedef enum fm_figure_kind { FM_FIGURE_LINES, FM_FIGURE_STACKED_BARS } fm_figure_kind;
 
 typedef struct fm_figure_chart {
-    const char *id, *title, *x, *y;
+    const char *id, *title, *x;
+    const char *y;        /* the first of ys */
+    fm_name_list ys;      /* summed */
     const char *ratio_to; /* NULL: none */
     fm_name_list across;
     fm_figure_kind kind;

@@ -104,11 +104,9 @@ static fm_status add_figure(fm_writer *to, const fm_paper_figure *figure)
     return status;
 }
 
-/* All figures of the paper that figure `first` belongs to. */
-static fm_status add_paper(fm_writer *to, size_t first)
+static fm_status add_paper(fm_writer *to, const char *paper)
 {
     const fm_report_desc *desc = to->desc;
-    const char *paper = desc->figures[first]->paper;
     fm_status status = FM_OK;
     text_add(&to->page, "<h2 id=\"paper-");
     html_add(&to->page, paper);
@@ -116,22 +114,26 @@ static fm_status add_paper(fm_writer *to, size_t first)
     html_add(&to->page, paper_title(paper));
     text_add(&to->page, "</h2>\n");
     verdict_table_add(&to->page, desc->verdicts, paper);
-    for (size_t i = first; i < desc->figure_count && status == FM_OK; i++)
+    for (size_t i = 0; i < desc->figure_count && status == FM_OK; i++)
         if (strcmp(desc->figures[i]->paper, paper) == 0)
             status = add_figure(to, desc->figures[i]);
     return status;
 }
 
+fm_name_list paper_sections_names(const fm_report_desc *desc)
+{
+    fm_name_list list = { 0 };
+    for (size_t i = 0; i < desc->figure_count && list.count < FM_NAME_LIST; i++)
+        if (!name_list_names(&list, desc->figures[i]->paper))
+            list.names[list.count++] = desc->figures[i]->paper;
+    return list;
+}
+
 fm_status paper_sections_add(fm_writer *to)
 {
-    const fm_report_desc *desc = to->desc;
+    const fm_name_list names = paper_sections_names(to->desc);
     fm_status status = FM_OK;
-    for (size_t i = 0; i < desc->figure_count && status == FM_OK; i++) {
-        bool is_first = true;
-        for (size_t j = 0; j < i && is_first; j++)
-            is_first = strcmp(desc->figures[i]->paper, desc->figures[j]->paper) != 0;
-        if (is_first)
-            status = add_paper(to, i);
-    }
+    for (size_t i = 0; i < names.count && status == FM_OK; i++)
+        status = add_paper(to, names.names[i]);
     return status;
 }

@@ -77,7 +77,7 @@ static fm_status add_table(fm_writer *to, const char *file, const char *title)
     fm_status status = table_read(&table, path, to->err);
     if (status != FM_OK)
         return status;
-    text_add(&to->page, "<h3>%s</h3>\n<div class=table><table><thead><tr>", title);
+    text_add(&to->page, "<h2>%s</h2>\n<div class=table><table><thead><tr>", title);
     for (size_t i = 0; i < table->column_count; i++) {
         text_add(&to->page, "<th>");
         html_add(&to->page, table->names[i]);
@@ -199,7 +199,9 @@ static fm_status write_sections(fm_writer *to, const fm_report_desc *desc)
     fm_status status = groups_make(&groups, to->results, &all, to->err);
     if (status != FM_OK)
         return status;
+    const fm_name_list papers = paper_sections_names(desc);
     page_begin(&to->page, to->results);
+    page_add_links(&to->page, &papers);
     status = paper_sections_add(to);
     if (status == FM_OK)
         status = add_table(to, "memory.csv", "Memory by formula, and as printed");
