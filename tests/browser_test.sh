@@ -10,7 +10,7 @@ command -v python3 >/dev/null || { echo "no python3: skipped"; exit 77; }
 here=$(mktemp -d)
 trap 'rm -rf "$here"' EXIT
 code=0
-"$program" reproduce kplus-03 kplus-table1 sbuffer-01 sbuffer-memory --smoke -a width_px=64 -a height_px=32 \
+"$program" reproduce kplus-03 kplus-table1 sbuffer-01 sbuffer-memory --smoke \
     -a frames=1 --quiet -o "$here/run" >"$here/out" 2>"$here/talk" || code=$?
 [ "$code" = 0 ] || [ "$code" = 1 ] || { cat "$here/talk"; exit 1; } # 1: a claim fails, which is no matter here
 
