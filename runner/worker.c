@@ -181,6 +181,23 @@ static void add_frame(json_t *samples, uint32_t frame, const fm_sample *sample,
     add_sample(samples, frame, "canary_ns", (double)sample->canary_ns, "ns");
 }
 
+/* What the k nearest ask for is F_k; what is beyond them may be left out: of it how much was, by
+ * the map or by the method's own test, and how many fragments the method took for each that it
+ * keeps. */
+static void add_culled(json_t *metrics, const launch_job *job)
+{
+    const fm_measurement *m = &job->measurement;
+    const double all = (double)job->truth->fragment_count;
+    const double taken = (double)m->arrived - (double)m->culled;
+    const double kept = (double)truth_kept(job->truth, measure_places(&job->desc, job->settings.k));
+    if (job->desc.keeps != FM_KEEPS_K_NEAREST)
+        return;
+    if (all > kept)
+        set_number(metrics, "discarded_share", (all - taken) / (all - kept));
+    if (kept > 0)
+        set_number(metrics, "taken_per_kept", taken / kept);
+}
+
 static void add_checked(json_t *metrics, const fm_measurement *m, const fm_truth *truth)
 {
     set_count(metrics, "fragments_stored", m->check.captured);
@@ -219,8 +236,10 @@ static void add_metrics(launch_job *job)
     set_count(metrics, "scene_passes", m->scene_passes);
     if (m->k_chosen > 0)
         set_count(metrics, "k_chosen", m->k_chosen);
-    if (m->is_checked)
+    if (m->is_checked) {
         add_checked(metrics, m, job->truth);
+        add_culled(metrics, job);
+    }
     for (uint32_t i = 0; i < m->sample_count; i++)
         add_frame(samples, i, &m->samples[i], &job->desc);
     snprintf(hash, sizeof hash, "%016" PRIx64, image_hash(m->image));

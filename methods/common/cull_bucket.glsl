@@ -6,10 +6,10 @@
 const uint CULL_BUCKETS = 32u * FM_CULL_WORDS;
 const float CULL_LEAST_WIDTH = 8.673617379884035e-19; // 2^-60: quotients stay finite
 
-// Where a pixel's words of the map lie.
+// Where a pixel's words of the map lie: the same words of neighbours side by side.
 uint cull_word(uvec2 pixel, uint word)
 {
-    return fm_pixel_index(pixel) * uint(FM_CULL_WORDS) + word;
+    return word * uint(FM_PIXELS) + fm_pixel_index(pixel);
 }
 
 // Near and far; false: no range, and nothing is culled. The range pass keeps the greatest of depth bits and
