@@ -111,7 +111,9 @@ static uint32_t image_samples(const fm_method_desc *method, const char *name)
 {
     for (size_t i = 0; i < count_resources(method); i++)
         if (strcmp(method->resources[i].name, name) == 0)
-            return method->resources[i].samples + method->resources[i].samples_per_k;
+            return method->resources[i].samples_option != NULL
+                       ? UINT32_MAX /* some number */
+                       : method->resources[i].samples + method->resources[i].samples_per_k;
     return 0;
 }
 
