@@ -49,16 +49,6 @@ bool culling_is_applied(const fm_method_desc *method)
     return culling_is_map_pass(&method->passes[0]);
 }
 
-void culling_forget(fm_settings *settings)
-{
-    static const char *const names[] = { "culling", "cull_words", "cull_range", "cull_test",
-                                         "cull_memory" };
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
-        const fm_key *key = key_find(names[i]);
-        settings_set(settings, key, key->fallback, NULL);
-    }
-}
-
 /* ---- what can be culled ---- */
 
 static fm_status check_room(const fm_method_desc *method, fm_error *err)

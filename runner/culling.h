@@ -31,8 +31,6 @@ fm_status culling_check(const fm_method_desc *method, const fm_settings *setting
  * culling_check. */
 fm_status culling_apply(fm_method_desc *culled, const fm_method_desc *method,
                         const fm_settings *settings, uint32_t feed, fm_error *err);
-/* The keys that say how to cull, at their defaults: where nothing is culled they change nothing. */
-void culling_forget(fm_settings *settings);
 
 /* Of a method that culling_apply made. */
 bool culling_is_applied(const fm_method_desc *method);

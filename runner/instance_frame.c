@@ -81,7 +81,7 @@ static fm_status run_pass(frame_run *frame, size_t index, uint32_t iteration)
     fm_status status = record(frame);
     if (status != FM_OK || pass->kind == FM_PASS_HOST)
         return status;
-    frame->result->scene_passes += pass->kind == FM_PASS_SCENE;
+    frame->result->scene_passes += pass->kind == FM_PASS_SCENE && pass->cover == FM_COVER_NONE;
     set_params(frame, iteration,
                is_total ? (uint32_t)pass_invocations(instance, pass) : SCENE_PARAM_NONE);
     instance->device->ops->timer_begin(instance->device, (uint32_t)index);

@@ -95,8 +95,9 @@ static void forget_unused_method_keys(fm_settings *settings, const fm_method_des
         settings->lock = FM_LOCK_SPIN;
         settings->own_cull = FM_OWN_CULL_ON;
     }
-    if (settings->culling == FM_CULLING_NONE)
-        culling_forget(settings);
+    for (size_t i = 0; i < fm_key_count; i++)
+        if (!settings_key_matters(settings, &fm_keys[i]))
+            settings_set(settings, &fm_keys[i], fm_keys[i].fallback, NULL);
     if (!has_pixel_pass(method))
         settings->full_screen = FM_FULL_SCREEN_COMPUTE;
     if (method->technique == NULL)

@@ -191,6 +191,16 @@ bool settings_has_file(const fm_settings *settings)
     return key_is_read(key_find("mesh"), settings->generator);
 }
 
+bool settings_key_matters(const fm_settings *settings, const fm_key *key)
+{
+    char value[FM_PATH_MAX_BYTES];
+    const fm_key *other = key->with != NULL ? key_find(key->with) : NULL;
+    if (other == NULL)
+        return true;
+    settings_text(value, settings, other);
+    return strcmp(value, other->fallback) != 0;
+}
+
 static fm_status finish_mesh(fm_settings *settings, fm_error *err)
 {
     settings->n = 0;

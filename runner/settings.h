@@ -165,8 +165,9 @@ typedef struct fm_key {
     uint32_t generators;    /* scene keys: bit g: generator g reads it; 0: all do */
     bool optional;          /* FM_KEY_UINT: "none" is a value too, kept as `absent` */
     uint32_t absent;
-    bool is_quiet; /* case keys: at its default it is not part of a case's id, which so stays
-                      what it was before there was the key */
+    const char *with; /* case keys: changes nothing while this other key is at its default */
+    bool is_quiet;    /* case keys: at its default it is not part of a case's id, which so stays
+                         what it was before there was the key */
 } fm_key;
 
 extern const fm_key fm_keys[];
@@ -191,6 +192,8 @@ void settings_default(fm_settings *settings);
 fm_status settings_set(fm_settings *settings, const fm_key *key, const char *text, fm_error *err);
 /* One key's value as canonical text ("0.25", "random-cell"): settings_set takes it back. */
 void settings_text(char text[FM_PATH_MAX_BYTES], const fm_settings *settings, const fm_key *key);
+/* Whether the key may change something; keys that may not are better at their default. */
+bool settings_key_matters(const fm_settings *settings, const fm_key *key);
 /* Checks what concerns several keys and completes n: n = r * k, r being 4 if neither n nor r was
  * given. FM_INVALID: n and r that contradict each other, neither without a k, too many fragments, a
  * mesh scene without a mesh, clip planes out of order. Finished settings, also with k then set to 0

@@ -190,6 +190,8 @@ static void add_culled(json_t *metrics, const launch_job *job)
     const double all = (double)job->truth->fragment_count;
     const double taken = (double)m->arrived - (double)m->culled;
     const double kept = (double)truth_kept(job->truth, measure_places(&job->desc, job->settings.k));
+    if (culling_is_applied(&job->desc))
+        set_count(metrics, "cull_words", job->settings.cull_words);
     if (job->desc.keeps != FM_KEEPS_K_NEAREST)
         return;
     if (all > kept)
