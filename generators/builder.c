@@ -60,6 +60,15 @@ double builder_between(fm_builder *b, double low, double high)
     return low + (high - low) * builder_random(b);
 }
 
+vec3 builder_within(fm_builder *b, vec3 low, vec3 high)
+{
+    vec3 v;
+    v.x = builder_between(b, low.x, high.x);
+    v.y = builder_between(b, low.y, high.y);
+    v.z = builder_between(b, low.z, high.z);
+    return v;
+}
+
 void build_part(fm_builder *b)
 {
     b->parts++;
@@ -170,9 +179,10 @@ static void lathe_step(fm_builder *b, uint32_t sides, fm_ring from, fm_ring to)
 {
     const vec3 along = { to.radius - from.radius, to.y - from.y, 0 };
     const bool is_tip[2] = { !(from.radius > 0), !(to.radius > 0) };
-    const uint32_t first[2] = { lathe_ring(b, sides, from, along),
-                                lathe_ring(b, sides, to, along) };
+    uint32_t first[2];
     assert(!is_tip[0] || !is_tip[1]);
+    first[0] = lathe_ring(b, sides, from, along);
+    first[1] = lathe_ring(b, sides, to, along);
     lathe_band(b, first, is_tip, sides);
 }
 

@@ -43,6 +43,9 @@ uint32_t builder_triangles(const fm_builder *b);
 /* Uniform in [0, 1), in [low, high). */
 double builder_random(fm_builder *b);
 double builder_between(fm_builder *b, double low, double high);
+/* In the box from low to high: x, then y, then z is drawn. C leaves the order open in which a list
+ * of initialisers is evaluated; draw from two of them, and a scene depends on the compiler. */
+vec3 builder_within(fm_builder *b, vec3 low, vec3 high);
 
 /* Counts what follows as one more part. */
 void build_part(fm_builder *b);

@@ -16,8 +16,7 @@ static vec3 random_direction(fm_builder *b)
 {
     vec3 v;
     do {
-        v = (vec3){ builder_between(b, -1, 1), builder_between(b, -1, 1),
-                    builder_between(b, -1, 1) };
+        v = builder_within(b, (vec3){ -1, -1, -1 }, (vec3){ 1, 1, 1 });
     } while (dot(v, v) > 1 || dot(v, v) < 0.01);
     return normalized(v);
 }

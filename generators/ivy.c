@@ -80,9 +80,10 @@ static uint32_t leaf_colour(fm_builder *b)
 static void hang_leaf(fm_builder *b, const fm_frame *wall, vec3 foot)
 {
     const double size = leaf_size * builder_between(b, 0.5, 1);
-    const vec3 tip = { builder_between(b, -0.8, 0.8), builder_between(b, -1, 0.1),
-                       builder_between(b, 0.1, 0.9) };
-    const vec3 out = { builder_between(b, -0.5, 0.5), builder_between(b, 0, 0.8), 1 };
+    const vec3 tip = builder_within(b, (vec3){ -0.8, -1, 0.1 }, (vec3){ 0.8, 0.1, 0.9 });
+    vec3 out = { .z = 1 };
+    out.x = builder_between(b, -0.5, 0.5);
+    out.y = builder_between(b, 0, 0.8);
     vec3 y = { 0 }, z = { 0 };
     y = plus_scaled(plus_scaled(plus_scaled(y, wall->x, tip.x), wall->y, tip.y), wall->z, tip.z);
     z = plus_scaled(plus_scaled(plus_scaled(z, wall->x, out.x), wall->y, out.y), wall->z, out.z);

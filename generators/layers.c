@@ -296,11 +296,16 @@ static float depth_at(const fm_layer *layer, double x_ndc, double y_ndc)
                    (double)layer->slope_y * y_ndc);
 }
 
+static bool is_covered(const fm_rect *rect, uint32_t x, uint32_t y)
+{
+    return x >= rect->x0 && x < rect->x1 && y >= rect->y0 && y < rect->y1;
+}
+
 uint32_t layers_fragments(fm_fragment *fragments, const fm_scene *scene, uint32_t x, uint32_t y)
 {
     const fm_rect *rect = &scene->rect;
     const uint32_t t = scene->settings.tessellation;
-    if (x < rect->x0 || x >= rect->x1 || y < rect->y0 || y >= rect->y1)
+    if (!is_covered(rect, x, y))
         return 0;
     const double x_ndc = 2.0 * (x + 0.5) / scene->width_px - 1.0;
     const double y_ndc = 2.0 * (y + 0.5) / scene->height_px - 1.0;
@@ -314,5 +319,24 @@ uint32_t layers_fragments(fm_fragment *fragments, const fm_scene *scene, uint32_
             fragments[count++] = (fm_fragment){ depth_at(&scene->layers[layer], x_ndc, y_ndc),
                                                 scene->layers[layer].colour };
     }
+    return count;
+}
+
+bool layers_tie(const fm_scene *scene)
+{
+    return scene->settings.depths == FM_DEPTHS_COPLANAR ||
+           scene->settings.depths == FM_DEPTHS_EQUAL || scene->settings.depths == FM_DEPTHS_SLOPED;
+}
+
+uint32_t layers_sorted(fm_fragment *fragments, const fm_scene *scene, uint32_t x, uint32_t y)
+{
+    uint32_t count = 0;
+    assert(!layers_tie(scene));
+    if (!is_covered(&scene->rect, x, y))
+        return 0;
+    for (uint32_t layer = 0; layer < scene->n; layer++)
+        if (fragment_lives(scene, x, y, layer))
+            fragments[count++] =
+                (fm_fragment){ scene->layers[layer].depth, scene->layers[layer].colour };
     return count;
 }

@@ -7,6 +7,8 @@
 
 #include "culling.h"
 
+/* Of how many checked pixels the truth stays in memory. */
+enum { FORGET_PIXELS = 4096 };
 enum { SLOTS_SPARE = 4, LONG_FRAME_SAMPLES = 2, LOSSY_FRAMES = 4 };
 /* Captured fragments of one band: below every device's bound range. */
 #define BAND_BYTES (64ull << 20)
@@ -265,6 +267,8 @@ static fm_status check_band(checking *check, const fm_band *band, fm_error *err)
             check_image(check, pixel, count);
         check_pixel(&check->measurement->check, check->pixel, count, truth, all,
                     check->wanted < all ? check->wanted : all);
+        if (i % FORGET_PIXELS == FORGET_PIXELS - 1 || i + 1 == band->pixels)
+            truth_forget(check->truth, pixel - i % FORGET_PIXELS, pixel + 1);
     }
     return status;
 }

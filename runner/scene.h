@@ -118,5 +118,9 @@ typedef struct fm_fragment {
     uint32_t colour;
 } fm_fragment;
 uint32_t layers_fragments(fm_fragment *fragments, const fm_scene *scene, uint32_t x, uint32_t y);
+/* Whether two layers may share a depth at a pixel, or swap places. */
+bool layers_tie(const fm_scene *scene);
+/* The same fragments nearest first; only where layers do not tie. */
+uint32_t layers_sorted(fm_fragment *fragments, const fm_scene *scene, uint32_t x, uint32_t y);
 
 #endif

@@ -12,13 +12,35 @@
 
 static const char magic[8] = "fmtruth1";
 
-fm_status truth_file_open(truth_file *file, const char *path, fm_error *err)
+static fm_status write_failed(const truth_file *file, fm_error *err)
 {
+    return fm_fail(err, FM_IO, "%s: cannot be written: %s", file->path, strerror(errno));
+}
+
+fm_status truth_file_open(truth_file *file, const char *path, const truth_header *header,
+                          const uint64_t *offsets, fm_error *err)
+{
+    truth_header full = *header;
+    const size_t pixels = (size_t)header->width_px * header->height_px;
+    *file = (truth_file){ .out = fopen(path, "wb") };
     snprintf(file->path, sizeof file->path, "%s", path);
-    file->fragments = tmpfile();
-    file->arrival = tmpfile();
-    if (file->fragments == NULL || file->arrival == NULL)
+    if (file->out == NULL)
+        return fm_fail(err, FM_IO, "%s: %s", file->path, strerror(errno));
+    if (header->has_arrival && (file->arrival = tmpfile()) == NULL)
         return fm_fail(err, FM_IO, "a temporary file for truth: %s", strerror(errno));
+    memcpy(full.magic, magic, sizeof magic);
+    if (fwrite(&full, sizeof full, 1, file->out) != 1 ||
+        fwrite(offsets, sizeof *offsets, pixels + 1, file->out) != pixels + 1)
+        return write_failed(file, err);
+    return FM_OK;
+}
+
+fm_status truth_file_add(truth_file *file, const fm_fragment *fragments, const uint32_t *arrival,
+                         size_t count, fm_error *err)
+{
+    if (fwrite(fragments, sizeof *fragments, count, file->out) != count ||
+        (file->arrival != NULL && fwrite(arrival, sizeof *arrival, count, file->arrival) != count))
+        return write_failed(file, err);
     return FM_OK;
 }
 
@@ -34,33 +56,14 @@ static bool copy_all(FILE *out, FILE *in)
     return ferror(in) == 0;
 }
 
-static fm_status join(truth_file *file, const truth_header *header, const uint64_t *offsets,
-                      fm_error *err)
+fm_status truth_file_close(truth_file *file, fm_status status, fm_error *err)
 {
-    truth_header full = *header;
-    const size_t pixels = (size_t)header->width_px * header->height_px;
-    FILE *out = fopen(file->path, "wb");
-    if (out == NULL)
-        return fm_fail(err, FM_IO, "%s: %s", file->path, strerror(errno));
-    memcpy(full.magic, magic, sizeof magic);
-    const bool written = fwrite(&full, sizeof full, 1, out) == 1 &&
-                         fwrite(offsets, sizeof *offsets, pixels + 1, out) == pixels + 1 &&
-                         copy_all(out, file->fragments) &&
-                         (!header->has_arrival || copy_all(out, file->arrival));
-    if (fclose(out) != 0 || !written)
-        return fm_fail(err, FM_IO, "%s: cannot be written: %s", file->path, strerror(errno));
-    return FM_OK;
-}
-
-fm_status truth_file_close(truth_file *file, fm_status status, const truth_header *header,
-                           const uint64_t *offsets, fm_error *err)
-{
-    if (status == FM_OK)
-        status = join(file, header, offsets, err);
-    if (file->fragments != NULL)
-        fclose(file->fragments);
+    if (status == FM_OK && file->arrival != NULL && !copy_all(file->out, file->arrival))
+        status = write_failed(file, err);
     if (file->arrival != NULL)
         fclose(file->arrival);
+    if (file->out != NULL && fclose(file->out) != 0 && status == FM_OK)
+        status = write_failed(file, err);
     return status;
 }
 
@@ -146,6 +149,17 @@ void truth_close(fm_truth *truth)
     free(truth);
 }
 
+void truth_forget(const fm_truth *truth, uint64_t first, uint64_t last)
+{
+    const uintptr_t page = (uintptr_t)sysconf(_SC_PAGESIZE);
+    const uintptr_t from = (uintptr_t)&truth->fragments[truth->offsets[first]] / page * page;
+    const uintptr_t to = (uintptr_t)&truth->fragments[truth->offsets[last]] / page * page;
+    /* Advice: without it the pages stay, which is no failure. A page that is read again comes back
+     * from the file. */
+    if (truth->map != NULL && from < to)
+        madvise((char *)truth->map + (from - (uintptr_t)truth->map), to - from, MADV_DONTNEED);
+}
+
 static uint64_t kept_of(const fm_truth *truth, uint64_t pixel, uint32_t k)
 {
     const uint64_t count = truth->offsets[pixel + 1] - truth->offsets[pixel];
@@ -182,6 +196,8 @@ fm_status truth_composite(fm_image **image, const fm_truth *truth, uint32_t k, f
         composite_pixel(rgba, &truth->fragments[truth->offsets[i]], kept_of(truth, i, k));
         for (int channel = 0; channel < 4; channel++)
             (*image)->rgba[4 * i + (uint64_t)channel] = (float)rgba[channel];
+        if ((i + 1) % truth->width_px == 0)
+            truth_forget(truth, i + 1 - truth->width_px, i + 1);
     }
     return FM_OK;
 }

@@ -22,11 +22,17 @@ typedef struct fm_truth {
 } fm_truth;
 
 /* Captures the scene on the device (count, prefix sum, store in bands of pixels), sorts it and
- * writes it to path, atomically. common_folder: the runner's GLSL. */
+ * writes it to path, atomically. Of flat layers without ties the device counts all and stores the
+ * first band; while these agree with the closed form, it fills the bands that follow. A band is
+ * what is held in memory. common_folder: the runner's GLSL. */
 fm_status truth_capture(const char *path, fm_device *device, const fm_scene *scene,
                         const char *common_folder, fm_error *err);
 fm_status truth_open(fm_truth **truth, const char *path, fm_error *err);
 void truth_close(fm_truth *truth);
+
+/* Gives the memory of these pixels' fragments back, first to last, half open; the file keeps them:
+ * a truth may be larger than memory. */
+void truth_forget(const fm_truth *truth, uint64_t first, uint64_t last);
 
 /* Sum over pixels of min(f, k). */
 uint64_t truth_kept(const fm_truth *truth, uint32_t k);

@@ -91,6 +91,49 @@ static void flat_layers_are_captured_as_the_closed_form_says(void **state)
     kit_close(&kit);
 }
 
+/* Bands after the first come from the closed form: a method that the device runs must find the same
+ * fragments in them. */
+static void truth_of_several_bands_is_what_methods_capture(void **state)
+{
+    const uint64_t band = 8 << 20;
+    const kit_way way = { "kplus-array", FM_FEED_RASTER, "k=4" };
+    scene_kit kit;
+    kit_scene scene;
+    fm_measurement m;
+    kit_open(&kit, device_of(state));
+    kit_scene_open(&scene, &kit,
+                   "width_px=61 height_px=97 pixel_density=1 n=3200 tessellation=3 "
+                   "fragment_probability=0.5 order=random-cell");
+    assert_true(scene.truth->fragment_count > band);
+    if (kit_measure(&m, &scene, &way)) {
+        assert_int_equal(m.check.captured, truth_kept(scene.truth, 4));
+        assert_int_equal(m.check.missing + m.check.extra + m.check.misordered, 0);
+    }
+    measurement_free(&m);
+    kit_scene_close(&scene);
+    kit_close(&kit);
+}
+
+/* What was forgotten is read from the file again. */
+static void forgotten_fragments_come_back(void **state)
+{
+    scene_kit kit;
+    kit_scene scene;
+    fm_image *before, *after;
+    fm_error err = { .message = "" };
+    kit_open(&kit, device_of(state));
+    kit_scene_open(&scene, &kit, SMALL "n=64");
+    assert_int_equal(truth_composite(&before, scene.truth, 0, &err), FM_OK);
+    truth_forget(scene.truth, 0, 37ull * 23);
+    truth_forget(scene.truth, 100, 101);
+    assert_int_equal(truth_composite(&after, scene.truth, 0, &err), FM_OK);
+    assert_memory_equal(before->rgba, after->rgba, 37 * 23 * 4 * sizeof(float));
+    image_destroy(before);
+    image_destroy(after);
+    kit_scene_close(&scene);
+    kit_close(&kit);
+}
+
 static void sloped_layers_are_captured_within_two_steps(void **state)
 {
     scene_kit kit;
@@ -295,6 +338,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         ON_VULKAN_AND_OSMESA(flat_layers_are_captured_as_the_closed_form_says),
         ON_VULKAN_AND_OSMESA(sloped_layers_are_captured_within_two_steps),
+        { "truth_of_several_bands_is_what_methods_capture [vulkan]",
+          truth_of_several_bands_is_what_methods_capture, open_vulkan, close_opened, NULL },
+        { "forgotten_fragments_come_back [vulkan]", forgotten_fragments_come_back, open_vulkan,
+          close_opened, NULL },
         ON_VULKAN_AND_OSMESA(sums_of_a_truth_agree_with_its_lists),
         cmocka_unit_test(vulkan_and_osmesa_capture_the_same_flat_layers),
         cmocka_unit_test(truth_open_takes_a_whole_file),
