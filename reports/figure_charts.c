@@ -12,13 +12,14 @@ static const double plot_width_px = 560, plot_height_px = 380;
 
 fm_figure_cases figure_cases(const fm_result_files *results, const fm_paper_figure *figure)
 {
-    return (fm_figure_cases){ figure, result_files_figure(results, figure->id) };
+    return (fm_figure_cases){ figure, results->figures != NULL,
+                              result_files_figure(results, figure->id) };
 }
 
 bool figure_takes_case(const fm_case_row *result, const void *cases)
 {
     const fm_figure_cases *of = cases;
-    if (of->bit != 0)
+    if (of->is_listed)
         return (result->figures & of->bit) != 0;
     return name_list_has(&of->figure->methods, result->method) &&
            name_list_has(&of->figure->scenes, result->scene) &&

@@ -6,10 +6,11 @@
 #include "group.h"
 #include "paper_figure.h"
 
-/* The cases of a run that belong to a figure: by figures.csv, or where that does not name the
- * figure by the methods, scenes and feeds of its `run`. */
+/* The cases of a run that belong to a figure: by figures.csv, or where there is none by the
+ * methods, scenes and feeds of its `run`. */
 typedef struct fm_figure_cases {
     const fm_paper_figure *figure;
+    bool is_listed;
     uint64_t bit;
 } fm_figure_cases;
 fm_figure_cases figure_cases(const fm_result_files *results, const fm_paper_figure *figure);

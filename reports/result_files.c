@@ -115,7 +115,8 @@ static void add_look(fm_case_row *result, const fm_provenance *manifest)
     result->is_ok = result->outcome == FM_CASE_OK;
     result->is_measured = (result->is_ok || result->outcome == FM_CASE_WRONG_IMAGE) &&
                           isfinite(result->frame_ms) && result->frame_ms > 0.0;
-    result->is_software = device != NULL && device->is_software;
+    /* manifest.json lists devices at the end of a run: until then nothing is claimed of a GPU. */
+    result->is_software = device == NULL || device->is_software;
     result->total_rmse = result->rmse;
     if (result->k == 0.0)
         result->k = NAN; /* what methods that keep no k nearest are given */

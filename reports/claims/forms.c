@@ -68,6 +68,8 @@ static void judge_step(judging *to, const fm_claim_point *point, const fm_claim_
     decision made = { .measured = interval_ratio(next->value, point->value),
                       .a = point,
                       .b = next };
+    if (point->value.median == 0.0)
+        made.measured = next->value; /* a ratio to nothing says nothing */
     made.margin = rise.median / fmax(fabs(point->value.median), 1e-12);
     if (rise.low >= -allowed)
         made.kind = FM_VERDICT_HOLDS;

@@ -131,8 +131,9 @@ char *cli_command_text(int argc, char **argv);
 
 /* Path of fragmark-report, beside the program or in PATH; false: there is none. */
 bool report_find(char path[FM_PATH_MAX_BYTES]);
-/* Executes it on a folder; its exit status, or -1 when it could not be executed. */
-int report_execute(const char *program, const char *directory);
+/* Executes it on a folder, with another machine's results where reference is not NULL; its exit
+ * status, or -1 when it could not be executed. */
+int report_execute(const char *program, const char *directory, const char *reference);
 
 /* Seconds that a plan may take; a guess from the number of fragments. */
 double plan_seconds(const fm_plan *plan);

@@ -50,36 +50,46 @@ bool report_find(char path[FM_PATH_MAX_BYTES])
     return false;
 }
 
-int report_execute(const char *program, const char *directory)
+int report_execute(const char *program, const char *directory, const char *reference)
 {
     pid_t pid;
     int status = 0;
-    char *const argv[] = { strdup(program), strdup(directory), NULL };
-    const bool is_started = argv[0] != NULL && argv[1] != NULL &&
-                            posix_spawn(&pid, program, NULL, NULL, argv, environ) == 0;
+    char *const argv[] = { strdup(program), strdup(directory),
+                           reference != NULL ? strdup("--reference") : NULL,
+                           reference != NULL ? strdup(reference) : NULL, NULL };
+    const bool has_all = argv[0] != NULL && argv[1] != NULL &&
+                         (reference == NULL || (argv[2] != NULL && argv[3] != NULL));
+    const bool is_started = has_all && posix_spawn(&pid, program, NULL, NULL, argv, environ) == 0;
     while (is_started && waitpid(pid, &status, 0) < 0 && errno == EINTR)
         continue;
-    free(argv[0]);
-    free(argv[1]);
+    for (size_t i = 0; i < sizeof argv / sizeof argv[0]; i++)
+        free(argv[i]);
     if (!is_started)
         return -1;
     return WIFEXITED(status) ? WEXITSTATUS(status) : CLI_SIGNAL + WTERMSIG(status);
 }
 
+typedef struct report_arguments {
+    const char *directory, *reference;
+} report_arguments;
+
 static error_t parse(int key, char *text, struct argp_state *state)
 {
-    const char **directory = state->input;
+    report_arguments *given = state->input;
     switch (key) {
+    case 'r':
+        given->reference = text;
+        return 0;
     case ARGP_KEY_ARG:
-        if (*directory != NULL)
+        if (given->directory != NULL)
             argp_error(state, "'%s': one DIR only", text);
-        *directory = text;
+        given->directory = text;
         return 0;
     case 'h':
         argp_state_help(state, state->out_stream, ARGP_HELP_STD_HELP);
         return 0;
     case ARGP_KEY_END:
-        if (*directory == NULL)
+        if (given->directory == NULL)
             argp_error(state, "which DIR? One that `fragmark run -o DIR` filled");
         return 0;
     default:
@@ -87,7 +97,13 @@ static error_t parse(int key, char *text, struct argp_state *state)
     }
 }
 
-static const struct argp_option options[] = { CLI_HELP_OPTION, { 0 } };
+static const struct argp_option options[] = {
+    { "reference", 'r', "NAME|DIR|none", 0,
+      "another machine's results beside ours in all charts; without it h100 in ratios and verdicts",
+      0 },
+    CLI_HELP_OPTION,
+    { 0 },
+};
 static const struct argp argp = {
     .options = options,
     .parser = parse,
@@ -102,15 +118,15 @@ static const struct argp argp = {
 int cli_report(const fm_cli *cli, int argc, char **argv)
 {
     char program[FM_PATH_MAX_BYTES];
-    const char *directory = NULL;
-    argp_parse(&argp, argc, argv, 0, NULL, &directory);
+    report_arguments given = { 0 };
+    argp_parse(&argp, argc, argv, 0, NULL, &given);
     if (!report_find(program)) {
         fprintf(cli->talk, "fragmark: fragmark-report is neither beside this program nor in PATH; "
                            "it is built where libvtk9-dev, libopenimageio-dev and librsvg2-dev "
                            "are installed\n");
         return CLI_NOTHING;
     }
-    const int code = report_execute(program, directory);
+    const int code = report_execute(program, given.directory, given.reference);
     if (code < 0)
         fprintf(cli->talk, "fragmark: %s cannot be executed\n", program);
     return code < 0 ? CLI_NOTHING : code;

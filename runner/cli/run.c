@@ -70,7 +70,7 @@ static int report(const fm_cli *cli, const char *directory)
                            "and no report.html; the CSV files are complete\n");
         return CLI_DONE;
     }
-    const int code = report_execute(program, directory);
+    const int code = report_execute(program, directory, NULL);
     if (code != CLI_DONE && code != CLI_CLAIM_FAILS)
         fprintf(cli->talk, "%s failed (%d); again with: fragmark report %s\n", program, code,
                 directory);
