@@ -97,30 +97,31 @@ fm_status culling_check(const fm_method_desc *method, const fm_settings *setting
 
 /* ---- the transform ---- */
 
-static uint32_t image_samples(const fm_method_desc *method, const char *name)
+static bool is_multisampled(const fm_method_desc *method, const char *name, uint32_t k)
 {
-    for (size_t i = 0; i < count_resources(method); i++)
-        if (strcmp(method->resources[i].name, name) == 0)
-            return method->resources[i].samples_option != NULL
-                       ? UINT32_MAX /* some number */
-                       : method->resources[i].samples + method->resources[i].samples_per_k;
-    return 0;
+    for (size_t i = 0; i < count_resources(method); i++) {
+        const fm_resource *resource = &method->resources[i];
+        if (strcmp(resource->name, name) == 0)
+            return resource->samples_option != NULL ||
+                   resource->samples + resource->samples_per_k * k > 1;
+    }
+    return false;
 }
 
 /* The depth test is free, and the boundary's image, of one sample, fits the pass's targets. */
-static bool can_test_early(const fm_method_desc *method, const fm_pass *pass)
+static bool can_test_early(const fm_method_desc *method, const fm_pass *pass, uint32_t k)
 {
     for (size_t i = 0; i < FM_MAX_TARGETS && pass->targets[i].resource != NULL; i++)
-        if (image_samples(method, pass->targets[i].resource) > 1)
+        if (is_multisampled(method, pass->targets[i].resource, k))
             return false;
     return pass->state.depth_stencil == NULL;
 }
 
-static void test_pass(fm_pass *pass, const fm_method_desc *method, fm_cull_test test)
+static void test_pass(fm_pass *pass, const fm_method_desc *method, const fm_settings *settings)
 {
     if (pass->kind != FM_PASS_SCENE)
         return;
-    if (test == FM_CULL_TEST_SHADER || !can_test_early(method, pass)) {
+    if (settings->cull_test == FM_CULL_TEST_SHADER || !can_test_early(method, pass, settings->k)) {
         pass->reads[count_accesses(pass->reads)] = BOUNDARY;
         return;
     }
@@ -130,7 +131,7 @@ static void test_pass(fm_pass *pass, const fm_method_desc *method, fm_cull_test 
     pass->state.early_tests = true;
 }
 
-/* Settings that a method's formulas ask for; options have no part in a fixed buffer's choice. */
+/* Formulas ask for options; they have no part in the choice of a buffer. */
 static const char *no_option(const fm_workload *workload, const char *name)
 {
     (void)workload;
@@ -211,7 +212,7 @@ static void add_passes(fm_method_desc *culled, const fm_method_desc *method,
     };
     for (size_t i = 0; i < count_passes(method); i++) {
         passes[PASSES_ADDED + i] = method->passes[i];
-        test_pass(&passes[PASSES_ADDED + i], method, settings->cull_test);
+        test_pass(&passes[PASSES_ADDED + i], method, settings);
     }
 }
 

@@ -1,6 +1,7 @@
 /* Fragment culling of the k+-buffer (section 3.2): what is farther than all k kept fragments is
- * discarded before the critical section. Counted by the checked build, through the real shaders. On
- * software rasterisers, where a pixel's fragments come one after the other. */
+ * discarded before the critical section; and by occupancy maps, before the shader. Counted by the
+ * checked build, through the real shaders. On software rasterisers, where a pixel's fragments come
+ * one after the other. */
 #include <stdio.h>
 
 #include "scene_kit.h"
@@ -99,6 +100,76 @@ static void descending_order_takes_n_locks_a_pixel(void **state)
     locks_of(state, "width_px=37 height_px=23 n=40 tessellation=3 order=descending", 40);
 }
 
+/* ---- occupancy maps ---- */
+
+/* 33 layers from 1/64 to 33/64, farthest first: with one word each has a bucket of its own, but for
+ * the last two. The far edge of the fourth is where the fifth begins, which arrives too, for the
+ * edge is rounded up; all others do not. */
+static void expect_arrivals(void **state, const char *method, const char *texts, uint64_t arrived)
+{
+    enum { LAYERS = 33 };
+    unsigned depths[LAYERS];
+    scene_kit kit;
+    kit_scene scene;
+    fm_measurement m;
+    const kit_way way = { method, FM_FEED_RASTER, texts };
+    for (unsigned i = 0; i < LAYERS; i++)
+        depths[i] = LAYERS - i;
+    kit_open(&kit, device_of(state));
+    kit_scene_take(&scene, &kit, make_sequence(depths, LAYERS));
+    assert_true(kit_measure(&m, &scene, &way));
+    assert_int_equal(m.arrived, PIXELS_COVERED * arrived);
+    assert_int_equal(m.check.missing + m.check.extra + m.check.misordered + m.lost, 0);
+    assert_int_equal(m.bytes_allocated, m.bytes_predicted);
+    measurement_free(&m);
+    kit_scene_close(&scene);
+    kit_close(&kit);
+}
+
+#define OCCUPANCY "k=4 culling=occupancy cull_words=1 "
+
+static void what_lies_behind_the_kth_bucket_does_not_arrive(void **state)
+{
+    expect_arrivals(state, "kplus-array", "k=4", 33);
+    expect_arrivals(state, "kplus-array", OCCUPANCY, 5);
+    expect_arrivals(state, "kplus-array", OCCUPANCY "cull_range=aabb", 5);
+    expect_arrivals(state, "kplus-array", OCCUPANCY "cull_range=exact", 5);
+    expect_arrivals(state, "kplus-array", OCCUPANCY "cull_memory=shared", 5);
+}
+
+static void tests_in_the_shader_cull_the_same(void **state)
+{
+    expect_arrivals(state, "kplus-array", OCCUPANCY "cull_test=shader", 5);
+    expect_arrivals(state, "f2b-k", OCCUPANCY, 5); /* owns its depth buffer */
+}
+
+/* The last bucket has no edge. */
+static void a_kth_bucket_that_is_the_last_culls_nothing(void **state)
+{
+    expect_arrivals(state, "kplus-array", "k=32 culling=occupancy cull_words=1", 33);
+}
+
+/* Without its own test the method takes a lock for each fragment that arrives. */
+static void own_cull_off_takes_a_lock_for_each_arrival(void **state)
+{
+    static const unsigned depths[] = { 12, 5, 20, 9, 16, 3, 14, 7, 25, 10, 18 };
+    scene_kit kit;
+    kit_scene scene;
+    kit_open(&kit, software_device_of(state));
+    kit_scene_take(&scene, &kit, make_sequence(depths, 11));
+    for (size_t i = 0; i < METHOD_COUNT; i++) {
+        fm_measurement m;
+        const kit_way way = { methods[i], FM_FEED_RASTER, "k=8 own_cull=off" };
+        assert_true(kit_measure(&m, &scene, &way));
+        assert_int_equal(m.culled, 0);
+        assert_int_equal(m.locked, PIXELS_COVERED * 11);
+        assert_int_equal(m.check.missing + m.check.extra + m.check.misordered + m.lost, 0);
+        measurement_free(&m);
+    }
+    kit_scene_close(&scene);
+    kit_close(&kit);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -107,6 +178,10 @@ int main(void)
         ON_VULKAN_AND_OSMESA(equal_to_the_farthest_is_culled),
         ON_VULKAN_AND_OSMESA(ascending_order_takes_k_locks_a_pixel),
         ON_VULKAN_AND_OSMESA(descending_order_takes_n_locks_a_pixel),
+        ON_VULKAN_AND_OSMESA(what_lies_behind_the_kth_bucket_does_not_arrive),
+        ON_VULKAN_AND_OSMESA(tests_in_the_shader_cull_the_same),
+        ON_VULKAN_AND_OSMESA(a_kth_bucket_that_is_the_last_culls_nothing),
+        ON_VULKAN_AND_OSMESA(own_cull_off_takes_a_lock_for_each_arrival),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -267,6 +267,38 @@ static void plan_skips_with_the_reason(void **state)
     plan_free(&with.plan);
 }
 
+static void plan_skips_what_cannot_be_culled(void **state)
+{
+    (void)state;
+    fixture with;
+    fixture_create(&with);
+    expect(&with,
+           &(fm_plan_request){ .methods = LIST("ab", "kb"), .axes = LIST("culling=occupancy") }, 2);
+    assert_string_equal(with.plan.cases[0].skip,
+                        "culling = occupancy: the method keeps other fragments than the k nearest");
+    assert_string_equal(with.plan.cases[1].skip, "");
+    plan_free(&with.plan);
+}
+
+/* Without a map its size changes nothing: one case, of the id that it had without such keys. */
+static void keys_of_a_map_that_is_not_there_are_forgotten(void **state)
+{
+    (void)state;
+    char first[17];
+    fixture with;
+    fixture_create(&with);
+    expect(&with, &(fm_plan_request){ .methods = LIST("kb") }, 1);
+    strcpy(first, with.plan.cases[0].id);
+    expect(&with,
+           &(fm_plan_request){ .methods = LIST("kb"),
+                               .axes = LIST("culling=none,occupancy", "cull_words=1,2") },
+           3);
+    assert_string_equal(with.plan.cases[0].id, first);
+    assert_int_equal(with.plan.cases[0].settings.cull_words, 32);
+    assert_int_equal(with.plan.cases[1].settings.cull_words, 1);
+    plan_free(&with.plan);
+}
+
 static void case_ids_tell_cases_apart_and_nothing_else(void **state)
 {
     (void)state;
@@ -414,6 +446,8 @@ int main(void)
         cmocka_unit_test(plan_joins_cases_that_differ_only_in_an_unused_k),
         cmocka_unit_test(plan_gives_an_option_to_the_methods_that_have_it),
         cmocka_unit_test(plan_skips_with_the_reason),
+        cmocka_unit_test(plan_skips_what_cannot_be_culled),
+        cmocka_unit_test(keys_of_a_map_that_is_not_there_are_forgotten),
         cmocka_unit_test(case_ids_tell_cases_apart_and_nothing_else),
         cmocka_unit_test(plan_reads_specs_and_lets_the_command_line_win),
         cmocka_unit_test(plan_refuses_specs_with_the_line),
