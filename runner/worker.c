@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "answer.h"
 #include "culling.h"
 #include "device/device.h"
 #include "measure.h"
@@ -126,147 +127,7 @@ static fm_status open_scene(launch_job *job)
     return not_the_plugins(status);
 }
 
-/* ---- result ---- */
-
-static void set_number(json_t *object, const char *name, double value)
-{
-    if (isfinite(value))
-        json_object_set_new(object, name, json_real(value));
-    else
-        json_object_set_new(object, name,
-                            json_string(isnan(value) ? "nan"
-                                        : value > 0  ? "inf"
-                                                     : "-inf"));
-}
-
-static void set_count(json_t *object, const char *name, uint64_t value)
-{
-    json_object_set_new(object, name, json_integer((json_int_t)value));
-}
-
-static void add_sample(json_t *samples, uint32_t frame, const char *metric, double value,
-                       const char *unit)
-{
-    json_array_append_new(samples, json_pack("{s:i, s:s, s:f, s:s}", "frame", (int)frame, "metric",
-                                             metric, "value", value, "unit", unit));
-}
-
-static bool is_standard_pass(const char *name)
-{
-    static const char *const standard[] = { "clear", "count", "reference", "store", "resolve" };
-    for (size_t i = 0; i < sizeof standard / sizeof standard[0]; i++)
-        if (strcmp(standard[i], name) == 0)
-            return true;
-    return false;
-}
-
-static void add_frame(json_t *samples, uint32_t frame, const fm_sample *sample,
-                      const fm_method_desc *method)
-{
-    uint64_t sum = 0, map = 0;
-    char metric[96];
-    for (size_t i = 0; i < FM_MAX_PASSES && method->passes[i].name != NULL; i++) {
-        const char *name = method->passes[i].name;
-        snprintf(metric, sizeof metric, "%s%s_ms", is_standard_pass(name) ? "" : "pass.", name);
-        add_sample(samples, frame, metric, (double)sample->pass_ns[i] * 1e-6, "ms");
-        sum += sample->pass_ns[i];
-        map += culling_is_map_pass(&method->passes[i]) ? sample->pass_ns[i] : 0;
-    }
-    if (culling_is_applied(method))
-        add_sample(samples, frame, "culling_ms", (double)map * 1e-6, "ms");
-    add_sample(samples, frame, "frame_ms", (double)sum * 1e-6, "ms");
-    add_sample(samples, frame, "frame_wall_ms", (double)sample->wall_ns * 1e-6, "ms");
-    add_sample(samples, frame, "floor_store_ms", (double)sample->floor_store_ns * 1e-6, "ms");
-    add_sample(samples, frame, "floor_frame_ms", (double)sample->floor_frame_ns * 1e-6, "ms");
-    add_sample(samples, frame, "canary_ns", (double)sample->canary_ns, "ns");
-}
-
-/* What the k nearest ask for is F_k; what is beyond them may be left out: of it how much was, by
- * the map or by the method's own test, and how many fragments the method took for each that it
- * keeps. */
-static void add_culled(json_t *metrics, const launch_job *job)
-{
-    const fm_measurement *m = &job->measurement;
-    const double all = (double)job->truth->fragment_count;
-    const double taken = (double)m->arrived - (double)m->culled;
-    const double kept = (double)truth_kept(job->truth, measure_places(&job->desc, job->settings.k));
-    if (culling_is_applied(&job->desc))
-        set_count(metrics, "cull_words", job->settings.cull_words);
-    if (job->desc.keeps != FM_KEEPS_K_NEAREST)
-        return;
-    if (all > kept)
-        set_number(metrics, "discarded_share", (all - taken) / (all - kept));
-    if (kept > 0)
-        set_number(metrics, "taken_per_kept", taken / kept);
-}
-
-static void add_checked(json_t *metrics, const fm_measurement *m, const fm_truth *truth)
-{
-    set_count(metrics, "fragments_stored", m->check.captured);
-    set_count(metrics, "fragments_arrived", m->arrived);
-    set_count(metrics, "fragments_culled", m->culled);
-    set_count(metrics, "locks_taken", m->locked);
-    set_count(metrics, "missing", m->check.missing);
-    set_count(metrics, "extra", m->check.extra);
-    set_count(metrics, "misordered", m->check.misordered);
-    set_count(metrics, "depth_ulp_max", m->check.depth_ulp_max);
-    set_count(metrics, "wrong_pixels", m->check.wrong_pixels);
-    set_count(metrics, "nonempty_pixels", truth->nonempty_pixels);
-    set_number(metrics, "self_max_abs", m->self_max_abs);
-    set_number(metrics, "rmse", m->error.rmse);
-    set_number(metrics, "psnr_db", m->error.psnr_db);
-    set_number(metrics, "max_abs", m->error.max_abs);
-    set_number(metrics, "ssim", m->error.ssim);
-    set_number(metrics, "truncation_rmse", m->truncation_rmse);
-    set_number(metrics, "total_rmse", m->total_rmse);
-}
-
-static void add_metrics(launch_job *job)
-{
-    const fm_measurement *m = &job->measurement;
-    json_t *metrics = json_object(), *samples = json_array();
-    char hash[17];
-    set_count(metrics, "n", job->stage->n);
-    set_count(metrics, "bytes_allocated", m->bytes_allocated);
-    set_count(metrics, "bytes_predicted", m->bytes_predicted);
-    set_count(metrics, "bytes_used", m->bytes_used);
-    set_count(metrics, "fragments_generated", job->truth->fragment_count);
-    set_count(metrics, "fragments_lost", m->lost);
-    set_count(metrics, "frames_redone", m->frames_redone);
-    set_number(metrics, "redone_ms", (double)m->redone_ns * 1e-6);
-    set_count(metrics, "frames_lossy", m->frames_lossy);
-    set_count(metrics, "scene_passes", m->scene_passes);
-    if (m->k_chosen > 0)
-        set_count(metrics, "k_chosen", m->k_chosen);
-    if (m->is_checked) {
-        add_checked(metrics, m, job->truth);
-        add_culled(metrics, job);
-    }
-    for (uint32_t i = 0; i < m->sample_count; i++)
-        add_frame(samples, i, &m->samples[i], &job->desc);
-    snprintf(hash, sizeof hash, "%016" PRIx64, image_hash(m->image));
-    json_object_set_new(job->result, "image_hash", json_string(hash));
-    json_object_set_new(job->result, "metrics", metrics);
-    json_object_set_new(job->result, "samples", samples);
-}
-
-/* What was allocated and run for this scene, and so what was not. */
-static void add_modelled(launch_job *job)
-{
-    json_t *scene = json_array(), *passes = json_array(), *buffers = json_array();
-    for (int i = 0; i < STAGE_SLOT_COUNT; i++)
-        if (job->stage->slots[i].buffer != NULL)
-            json_array_append_new(scene, json_string(job->stage->slots[i].name));
-    if (job->stage->vertices != NULL)
-        json_array_append_new(scene, json_string("vertices"));
-    for (size_t i = 0; i < FM_MAX_PASSES && job->desc.passes[i].name != NULL; i++)
-        json_array_append_new(passes, json_string(job->desc.passes[i].name));
-    for (size_t i = 0; i < FM_MAX_RESOURCES && job->desc.resources[i].name != NULL; i++)
-        json_array_append_new(buffers, json_string(job->desc.resources[i].name));
-    json_object_set_new(
-        job->result, "modelled",
-        json_pack("{s:o, s:o, s:o}", "scene", scene, "passes", passes, "buffers", buffers));
-}
+/* ---- verdict ---- */
 
 static const char *status_word(const launch_job *job, fm_status status)
 {
@@ -360,11 +221,7 @@ static fm_status truth_job(launch_job *job)
         status = truth_open(&job->truth, path, &job->error);
     if (status != FM_OK)
         return status;
-    json_t *metrics = json_object();
-    set_count(metrics, "n", job->truth->n);
-    set_count(metrics, "fragments_generated", job->truth->fragment_count);
-    set_count(metrics, "nonempty_pixels", job->truth->nonempty_pixels);
-    json_object_set_new(job->result, "metrics", metrics);
+    answer_add_truth(job->result, job->truth);
     return FM_OK;
 }
 
@@ -444,8 +301,12 @@ static fm_status measure_job(launch_job *job)
     if (job->measurement.is_long)
         fm_fail(&job->error, FM_OK, "frames over 2 s: %u samples a launch, the interval is wide",
                 job->measurement.sample_count);
-    add_metrics(job);
-    add_modelled(job);
+    const fm_answer_desc answer = { .measurement = &job->measurement,
+                                    .method = &job->desc,
+                                    .settings = &job->settings,
+                                    .truth = job->truth,
+                                    .stage = job->stage };
+    answer_add_measured(job->result, &answer);
     return FM_OK;
 }
 
