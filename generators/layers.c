@@ -37,11 +37,12 @@ static uint32_t mix(uint32_t h)
     return h;
 }
 
-static bool fragment_lives(const fm_scene *scene, uint32_t x, uint32_t y, uint32_t layer)
+bool layers_lives(const fm_scene *scene, uint32_t x, uint32_t y, uint32_t layer)
 {
     const uint32_t h =
         x + y * 0x9E3779B1u + layer * 0x85EBCA77u + seed_word(scene->settings.seed) * 0xC2B2AE3Du;
-    return scene->survival_threshold == all_live || mix(h) < scene->survival_threshold;
+    return !scene_is_layers(scene) || scene->survival_threshold == all_live ||
+           mix(h) < scene->survival_threshold;
 }
 
 static uint32_t threshold_of(double probability)
@@ -315,7 +316,7 @@ uint32_t layers_fragments(fm_fragment *fragments, const fm_scene *scene, uint32_
     uint32_t count = 0;
     for (uint32_t slot = 0; slot < scene->n; slot++) {
         const uint32_t layer = scene->order[(size_t)row * scene->n + slot];
-        if (fragment_lives(scene, x, y, layer))
+        if (layers_lives(scene, x, y, layer))
             fragments[count++] = (fm_fragment){ depth_at(&scene->layers[layer], x_ndc, y_ndc),
                                                 scene->layers[layer].colour };
     }

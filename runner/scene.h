@@ -99,6 +99,8 @@ fm_status layers_generate(fm_scene *scene, fm_error *err);
 /* Where cell i of t begins, in px, and cell i - 1 ends; i = 0..t. begin, end: rect's x0, x1 or y0,
  * y1. Cells of less than a pixel may be empty. */
 uint32_t layers_border(uint32_t begin, uint32_t end, uint32_t i, uint32_t t);
+/* Whether that fragment lives; all fragments of other generators do. */
+bool layers_lives(const fm_scene *scene, uint32_t x, uint32_t y, uint32_t layer);
 /* The mesh loader: fills vertices and indices (runner/mesh.c). Vertices have a stone base colour,
  * shaded with settings.alpha. box: of the vertices that triangles use. */
 fm_status mesh_read(fm_scene *scene, fm_box *box, fm_error *err);

@@ -16,16 +16,18 @@ typedef struct fm_truth {
     const uint64_t *offsets;      /* [pixels + 1] */
     const fm_fragment *fragments; /* [F], by pixel, nearest first */
     const uint32_t *arrival; /* [F]: where the i-th arriving fragment of a pixel stands among the
-                                pixel's fragments; NULL for flat layers */
+                                pixel's fragments; NULL for flat layers and the feed triangles */
     void *map;
     uint64_t map_bytes;
 } fm_truth;
 
-/* Captures the scene on the device (count, prefix sum, store in bands of pixels), sorts it and
- * writes it to path, atomically. Of flat layers without ties the device counts all and stores the
- * first band; while these agree with the closed form, it fills the bands that follow. A band is
- * what is held in memory. common_folder: the runner's GLSL. */
-fm_status truth_capture(const char *path, fm_device *device, const fm_scene *scene,
+/* Captures the scene (count, prefix sum, store in bands of pixels), sorts it and writes it to path,
+ * atomically. A band is what is held in memory. feed: one of FM_FEED_*. FM_FEED_TRIANGLES: as
+ * rasterise.h says, whatever the device; the scene is held. Else as the device's rasteriser
+ * delivers it; of flat layers without ties it counts all and stores the first band, and while these
+ * agree with the closed form, that fills the bands that follow. common_folder: the runner's GLSL.
+ */
+fm_status truth_capture(const char *path, fm_device *device, const fm_scene *scene, uint32_t feed,
                         const char *common_folder, fm_error *err);
 fm_status truth_open(fm_truth **truth, const char *path, fm_error *err);
 void truth_close(fm_truth *truth);

@@ -1,4 +1,5 @@
-/* Capturing truth: two raster passes of the runner's own (count, store), in bands of pixels. */
+/* Capturing truth: two passes over the fragments (count, store), in bands of pixels; on the device
+ * by raster passes of the runner's own, on the host for the feed `triangles`. */
 #include "truth.h"
 
 #include <inttypes.h>
@@ -9,6 +10,7 @@
 
 #include "instance.h"
 #include "truth_file.h"
+#include "truth_triangles.h"
 
 /* Records of one band: 128 MiB, what the smallest device binds in one buffer. */
 enum { BAND_RECORDS = 8 << 20 };
@@ -31,11 +33,6 @@ static const fm_method_desc store_method = {
                   .writes = { "cursors", "records" } } },
 };
 
-/* As truth_store.glsl writes it. */
-typedef struct record {
-    uint32_t depth_bits, colour, primitive, unused;
-} record;
-
 typedef struct truth_run {
     fm_device *device;
     const fm_scene *scene;
@@ -45,11 +42,12 @@ typedef struct truth_run {
     uint32_t *counts;
     uint64_t *offsets; /* [pixels + 1] */
     uint32_t *cursors;
-    record *records;     /* of a band */
-    fm_fragment *sorted; /* of a band */
-    uint32_t *arrival;   /* of a band */
+    truth_record *records; /* of a band */
+    fm_fragment *sorted;   /* of a band */
+    uint32_t *arrival;     /* of a band */
     bool keeps_arrival;
     bool is_known; /* in closed form, and that has not been wrong */
+    bool by_host;  /* no stage, no instances */
     uint32_t n;
     uint64_t nonempty;
     fm_error *err;
@@ -66,7 +64,7 @@ static fm_status create_instance(fm_instance **instance, truth_run *capture,
     return instance_create(instance, &desc, capture->err);
 }
 
-static fm_status count_fragments(truth_run *capture)
+static fm_status count_on_device(truth_run *capture)
 {
     fm_instance *instance;
     fm_frame_result result;
@@ -78,6 +76,16 @@ static fm_status count_fragments(truth_run *capture)
             capture->device, instance_slot(instance, "counts")->buffer, 0, capture->counts,
             capture->pixels * sizeof capture->counts[0], capture->err);
     instance_destroy(instance);
+    return status;
+}
+
+static fm_status count_fragments(truth_run *capture)
+{
+    fm_status status = FM_OK;
+    if (capture->by_host)
+        truth_count_triangles(capture->counts, capture->scene);
+    else
+        status = count_on_device(capture);
     for (uint64_t i = 0; i < capture->pixels && status == FM_OK; i++) {
         capture->offsets[i + 1] = capture->offsets[i] + capture->counts[i];
         capture->n = capture->counts[i] > capture->n ? capture->counts[i] : capture->n;
@@ -88,20 +96,20 @@ static fm_status count_fragments(truth_run *capture)
 
 static int by_primitive(const void *a, const void *b)
 {
-    const record *left = a, *right = b;
+    const truth_record *left = a, *right = b;
     return (left->primitive > right->primitive) - (left->primitive < right->primitive);
 }
 
 static int by_depth(const void *a, const void *b)
 {
-    const record *left = a, *right = b;
+    const truth_record *left = a, *right = b;
     if (left->depth_bits != right->depth_bits)
         return left->depth_bits > right->depth_bits ? 1 : -1;
     return by_primitive(a, b);
 }
 
 /* `unused` carries the rank of arrival through the second sort. */
-static void sort_pixel(const truth_run *capture, record *records, uint32_t count, uint64_t at)
+static void sort_pixel(const truth_run *capture, truth_record *records, uint32_t count, uint64_t at)
 {
     if (capture->keeps_arrival) {
         qsort(records, count, sizeof *records, by_primitive);
@@ -140,14 +148,11 @@ static fm_status next_band(fm_band *band, const truth_run *capture, uint64_t fir
     return FM_OK;
 }
 
-static fm_status store_band(truth_run *capture, fm_instance *instance, const fm_band *band)
+static fm_status store_on_device(truth_run *capture, fm_instance *instance, const fm_band *band,
+                                 uint64_t count)
 {
     const fm_device_ops *ops = capture->device->ops;
-    const uint64_t base = capture->offsets[band->first];
-    const uint64_t count = capture->offsets[band->first + band->pixels] - base;
     fm_frame_result result;
-    for (uint64_t i = 0; i < capture->pixels; i++)
-        capture->cursors[i] = (uint32_t)(capture->offsets[i] - base);
     fm_status status = ops->buffer_write(
         capture->device, instance_slot(instance, "cursors")->buffer, 0, capture->cursors,
         capture->pixels * sizeof capture->cursors[0], capture->err);
@@ -155,7 +160,22 @@ static fm_status store_band(truth_run *capture, fm_instance *instance, const fm_
         status = instance_frame(&result, instance, band, capture->err);
     if (status == FM_OK && count > 0)
         status = ops->buffer_read(capture->device, instance_slot(instance, "records")->buffer, 0,
-                                  capture->records, count * sizeof(record), capture->err);
+                                  capture->records, count * sizeof(truth_record), capture->err);
+    return status;
+}
+
+static fm_status store_band(truth_run *capture, fm_instance *instance, const fm_band *band)
+{
+    const uint64_t base = capture->offsets[band->first];
+    const truth_band wanted = { band->first, band->pixels, capture->records, capture->cursors };
+    fm_status status = FM_OK;
+    for (uint64_t i = 0; i < capture->pixels; i++)
+        capture->cursors[i] = (uint32_t)(capture->offsets[i] - base);
+    if (capture->by_host)
+        truth_store_triangles(&wanted, capture->scene);
+    else
+        status = store_on_device(capture, instance, band,
+                                 capture->offsets[band->first + band->pixels] - base);
     if (status == FM_OK)
         sort_band(capture, band);
     return status;
@@ -195,9 +215,10 @@ static fm_status fill_band(truth_run *capture, fm_instance *instance, const fm_b
 
 static fm_status store_fragments(truth_run *capture, truth_file *file)
 {
-    fm_instance *instance;
+    fm_instance *instance = NULL;
     fm_band band = { 0 };
-    fm_status status = create_instance(&instance, capture, &store_method);
+    fm_status status =
+        capture->by_host ? FM_OK : create_instance(&instance, capture, &store_method);
     for (uint64_t first = 0; first < capture->pixels && status == FM_OK; first += band.pixels) {
         status = next_band(&band, capture, first);
         if (status == FM_OK)
@@ -257,10 +278,11 @@ static fm_status write_file(truth_run *capture, const char *partial)
     return truth_file_close(&file, status, capture->err);
 }
 
-fm_status truth_capture(const char *path, fm_device *device, const fm_scene *scene,
+fm_status truth_capture(const char *path, fm_device *device, const fm_scene *scene, uint32_t feed,
                         const char *common_folder, fm_error *err)
 {
     char partial[FM_PATH_MAX_BYTES + 16];
+    const bool by_host = feed == FM_FEED_TRIANGLES;
     /* Flat layers replay from the recipe; only other scenes need the order of arrival. */
     const bool is_flat = scene->settings.generator == FM_GENERATOR_LAYERS &&
                          scene->settings.depths != FM_DEPTHS_SLOPED;
@@ -268,12 +290,13 @@ fm_status truth_capture(const char *path, fm_device *device, const fm_scene *sce
                           .scene = scene,
                           .folders = { common_folder, common_folder },
                           .pixels = (uint64_t)scene->width_px * scene->height_px,
-                          .keeps_arrival = !is_flat,
-                          .is_known = is_flat && !layers_tie(scene),
+                          .keeps_arrival = !is_flat && !by_host,
+                          .is_known = is_flat && !by_host && !layers_tie(scene),
+                          .by_host = by_host,
                           .err = err };
     snprintf(partial, sizeof partial, "%s.partial", path);
     fm_status status = allocate(&capture);
-    if (status == FM_OK)
+    if (status == FM_OK && !by_host)
         status = stage_create(&capture.stage, device, scene, NULL, FM_FEED_RASTER, err);
     if (status == FM_OK)
         status = write_file(&capture, partial);

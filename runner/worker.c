@@ -80,7 +80,7 @@ static fm_status read_settings(launch_job *job)
 static fm_status read_feed(launch_job *job)
 {
     const char *name = text_of(job, "feed");
-    job->feed = feed_from_name(name) & FM_FEEDS_FRAGMENTS;
+    job->feed = feed_from_name(name) & (FM_FEEDS_FRAGMENTS | FM_FEED_TRIANGLES);
     if (job->feed == 0)
         return fm_fail(&job->error, FM_UNSUPPORTED, "feed '%s' is not one that this device carries",
                        name);
@@ -212,11 +212,14 @@ static fm_status truth_job(launch_job *job)
     const char *path = text_of(job, "truth");
     if (has_frames(job))
         return frames_job(job);
-    fm_status status = open_device(job);
+    fm_status status = read_feed(job);
+    if (status == FM_OK)
+        status = open_device(job);
     if (status == FM_OK)
         status = open_scene(job);
     if (status == FM_OK)
-        status = truth_capture(path, job->device, job->scene, text_of(job, "common"), &job->error);
+        status = truth_capture(path, job->device, job->scene, job->feed, text_of(job, "common"),
+                               &job->error);
     if (status == FM_OK)
         status = truth_open(&job->truth, path, &job->error);
     if (status != FM_OK)
