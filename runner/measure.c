@@ -177,7 +177,6 @@ static fm_status measure_times(fm_measurement *measurement, const fm_measure_des
     const fm_ledger *ledger = &stage->device->ledger;
     fm_instance *method = NULL, *floor = NULL;
     fm_status status = instance_create(&floor, desc->floor, err);
-    const uint64_t before = ledger->bytes[FM_OWNER_METHOD];
     if (status == FM_OK)
         status = instance_create(&method, desc->method, err);
     if (status == FM_OK)
@@ -186,11 +185,12 @@ static fm_status measure_times(fm_measurement *measurement, const fm_measure_des
         status = read_image(&measurement->image, stage, err);
     if (status == FM_OK)
         status = take_k(measurement, method, desc->method, err);
-    if (status == FM_OK) {
-        measurement->bytes_allocated = ledger->bytes[FM_OWNER_METHOD] - before;
+    if (status == FM_OK)
         take_bytes(measurement, method, desc);
-    }
+    /* What destroying it gives back: the floor may have grown beside it. */
+    const uint64_t with_method = ledger->bytes[FM_OWNER_METHOD];
     instance_destroy(method);
+    measurement->bytes_allocated = with_method - ledger->bytes[FM_OWNER_METHOD];
     instance_destroy(floor);
     return status;
 }

@@ -53,7 +53,8 @@ const fm_plugin_entry *plugin_list_find(const fm_plugin_list *list, const char *
 /* FM_INVALID with the nearest id. */
 fm_status plugin_list_get(const fm_plugin_entry **entry, const fm_plugin_list *list, const char *id,
                           fm_error *err);
-/* The method with FM_TRAIT_FLOOR; FM_INVALID without one. */
-fm_status plugin_list_floor(const fm_plugin **plugin, const fm_plugin_list *list, fm_error *err);
+/* The method with FM_TRAIT_FLOOR that takes this feed (one FM_FEED_*); FM_INVALID without one. */
+fm_status plugin_list_floor(const fm_plugin **plugin, const fm_plugin_list *list, uint32_t feed,
+                            fm_error *err);
 
 #endif

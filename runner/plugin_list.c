@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "plan.h"
 #include "plugin.h"
 #include "text.h"
 
@@ -168,14 +169,21 @@ fm_status plugin_list_get(const fm_plugin_entry **entry, const fm_plugin_list *l
     return fm_fail(err, FM_INVALID, "method '%s': no such plugin; nearest is '%s'", id, nearest);
 }
 
-fm_status plugin_list_floor(const fm_plugin **plugin, const fm_plugin_list *list, fm_error *err)
+static bool is_floor(const fm_method_desc *method, uint32_t feed)
+{
+    const uint32_t feeds = method->feeds != 0 ? method->feeds : FM_FEEDS_FRAGMENTS;
+    return (method->traits & FM_TRAIT_FLOOR) != 0 && (feeds & feed) != 0;
+}
+
+fm_status plugin_list_floor(const fm_plugin **plugin, const fm_plugin_list *list, uint32_t feed,
+                            fm_error *err)
 {
     *plugin = NULL;
     for (size_t i = 0; i < list->count && *plugin == NULL; i++)
-        if (list->entries[i].plugin != NULL &&
-            (list->entries[i].plugin->method->traits & FM_TRAIT_FLOOR))
+        if (list->entries[i].plugin != NULL && is_floor(list->entries[i].plugin->method, feed))
             *plugin = list->entries[i].plugin;
     if (*plugin == NULL)
-        return fm_fail(err, FM_INVALID, "no plugin is the floor: is the method 'null' built?");
+        return fm_fail(err, FM_INVALID, "no plugin is the floor of feed %s: is '%s' built?",
+                       feed_name(feed), feed == FM_FEED_TRIANGLES ? "null-triangles" : "null");
     return FM_OK;
 }

@@ -59,9 +59,25 @@ static void truth_name(char name[200], const fm_case *of)
             *c = '-';
 }
 
-fm_status truth_jobs_create(fm_truth_jobs *jobs, const fm_plan *plan, fm_error *err)
+static fm_status find_floor(fm_truth_job *job, const fm_case *of, const fm_plugin_list *plugins,
+                            fm_error *err)
+{
+    const fm_plugin *floor = NULL;
+    if (job->floor == NULL)
+        job->floor = "";
+    if (of->skip[0] != '\0' || job->floor[0] != '\0')
+        return FM_OK;
+    const fm_status status = plugin_list_floor(&floor, plugins, feed_from_name(of->feed), err);
+    if (status == FM_OK)
+        job->floor = floor->path;
+    return status;
+}
+
+fm_status truth_jobs_create(fm_truth_jobs *jobs, const fm_plan *plan, const fm_plugin_list *plugins,
+                            fm_error *err)
 {
     const size_t room = plan->count > 0 ? plan->count : 1;
+    fm_status status = FM_OK;
     *jobs = (fm_truth_jobs){
         .jobs = calloc(room, sizeof *jobs->jobs),
         .of_case = calloc(room, sizeof *jobs->of_case),
@@ -70,7 +86,7 @@ fm_status truth_jobs_create(fm_truth_jobs *jobs, const fm_plan *plan, fm_error *
         truth_jobs_free(jobs);
         return fm_fail(err, FM_NO_MEMORY, "no memory for %zu cases", plan->count);
     }
-    for (size_t i = 0; i < plan->count; i++) {
+    for (size_t i = 0; i < plan->count && status == FM_OK; i++) {
         fm_truth_job *wanted = &jobs->jobs[jobs->count];
         size_t job = 0;
         truth_name(wanted->name, &plan->cases[i]);
@@ -79,8 +95,11 @@ fm_status truth_jobs_create(fm_truth_jobs *jobs, const fm_plan *plan, fm_error *
         if (job == jobs->count)
             jobs->jobs[jobs->count++].of = i;
         jobs->of_case[i] = job;
+        status = find_floor(&jobs->jobs[job], &plan->cases[i], plugins, err);
     }
-    return FM_OK;
+    if (status != FM_OK)
+        truth_jobs_free(jobs);
+    return status;
 }
 
 void truth_jobs_free(fm_truth_jobs *jobs)

@@ -15,10 +15,12 @@ typedef struct fm_request {
 
 fm_status request_write(const char *path, const fm_request *request, fm_error *err);
 
-/* One truth: a scene as a device's rasteriser sees it. raster and compute feeds share it. */
+/* One truth: a scene as a device's rasteriser sees it. raster and compute feeds share it, and the
+ * floor that their cases are measured beside. */
 typedef struct fm_truth_job {
-    char name[200]; /* of its files: SCENEHASH-DEVICE[-FEED] */
-    size_t of;      /* the first case that needs it */
+    char name[200];    /* of its files: SCENEHASH-DEVICE[-FEED] */
+    size_t of;         /* the first case that needs it */
+    const char *floor; /* path of the floor's plugin; "": all its cases are skipped */
 } fm_truth_job;
 
 typedef struct fm_truth_jobs {
@@ -27,7 +29,9 @@ typedef struct fm_truth_jobs {
     size_t *of_case; /* [plan->count]: which job */
 } fm_truth_jobs;
 
-fm_status truth_jobs_create(fm_truth_jobs *jobs, const fm_plan *plan, fm_error *err);
+/* FM_INVALID: no plugin is the floor of a feed. */
+fm_status truth_jobs_create(fm_truth_jobs *jobs, const fm_plan *plan, const fm_plugin_list *plugins,
+                            fm_error *err);
 void truth_jobs_free(fm_truth_jobs *jobs);
 
 #endif

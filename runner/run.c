@@ -23,7 +23,6 @@ typedef struct run_state {
     const fm_plan *plan;
     const fm_plugin_list *plugins;
     const fm_run_desc *desc;
-    const fm_plugin *floor;
     fm_journal *journal;
     fm_results *results;
     fm_truth_jobs truths;
@@ -275,7 +274,7 @@ static fm_status capture_truth(run_state *run, size_t job, fm_error *err)
     const fm_request request = {
         .of = of,
         .plugin = plugin_path(run, of),
-        .floor = run->floor->path,
+        .floor = run->truths.jobs[job].floor,
         .common = run->plugins->common_folder,
         .truth = path,
         .image = "",
@@ -314,7 +313,7 @@ static fm_status measure(run_state *run, size_t case_index, uint32_t launch, fm_
     const fm_request request = {
         .of = of,
         .plugin = plugin_path(run, of),
-        .floor = run->floor->path,
+        .floor = run->truths.jobs[run->truths.of_case[case_index]].floor,
         .common = run->plugins->common_folder,
         .truth = truth,
         .image = image,
@@ -440,9 +439,7 @@ static fm_status write_manifest(const run_state *run, bool is_ended, fm_error *e
 
 static fm_status prepare(run_state *run, fm_error *err)
 {
-    fm_status status = plugin_list_floor(&run->floor, run->plugins, err);
-    if (status == FM_OK)
-        status = truth_jobs_create(&run->truths, run->plan, err);
+    fm_status status = truth_jobs_create(&run->truths, run->plan, run->plugins, err);
     if (status == FM_OK)
         status = make_folders(run, err);
     if (status == FM_OK)

@@ -181,7 +181,7 @@ static void plugin_list_without_a_floor_says_so(void **state)
     fm_error err;
     unsetenv("FRAGMARK_PLUGIN_PATH");
     assert_int_equal(plugin_list_open(&list, folders, NULL), FM_OK);
-    assert_int_equal(plugin_list_floor(&floor, &list, &err), FM_INVALID);
+    assert_int_equal(plugin_list_floor(&floor, &list, FM_FEED_RASTER, &err), FM_INVALID);
     assert_null(floor);
     plugin_list_close(&list);
 }
