@@ -98,7 +98,7 @@ static fm_status draw_pass(fm_instance *instance, size_t index, uint32_t iterati
     return instance->device->ops->draw(instance->device, &draw, err);
 }
 
-uint64_t pass_invocations(const fm_instance *instance, const fm_pass *pass)
+uint64_t pass_units(const fm_instance *instance, const fm_pass *pass)
 {
     const fm_workload *workload = &instance->workload;
     const int total = total_index(instance->method, pass->count_total);
@@ -120,6 +120,11 @@ uint64_t pass_invocations(const fm_instance *instance, const fm_pass *pass)
         break;
     }
     return 0;
+}
+
+uint64_t pass_invocations(const fm_instance *instance, const fm_pass *pass)
+{
+    return pass_units(instance, pass) * pass_lanes(pass);
 }
 
 fm_status pass_dispatch(fm_instance *instance, const fm_pass *pass, const built_pass *built,

@@ -83,7 +83,7 @@ static fm_status run_pass(frame_run *frame, size_t index, uint32_t iteration)
         return status;
     frame->result->scene_passes += pass->kind == FM_PASS_SCENE && pass->cover == FM_COVER_NONE;
     set_params(frame, iteration,
-               is_total ? (uint32_t)pass_invocations(instance, pass) : SCENE_PARAM_NONE);
+               is_total ? (uint32_t)pass_units(instance, pass) : SCENE_PARAM_NONE);
     instance->device->ops->timer_begin(instance->device, (uint32_t)index);
     status = pass_issue(instance, index, iteration, frame->err);
     instance->device->ops->timer_end(instance->device, (uint32_t)index);

@@ -72,6 +72,8 @@ static inline fm_slot *current_copy(fm_instance *instance, int index)
 }
 
 /* instance_draw.c. The frame is being recorded. */
+/* Pixels, tiles, triangles, ... of a dispatch, and its invocations: lanes for each. */
+uint64_t pass_units(const fm_instance *instance, const fm_pass *pass);
 uint64_t pass_invocations(const fm_instance *instance, const fm_pass *pass);
 fm_status pass_issue(fm_instance *instance, size_t index, uint32_t iteration, fm_error *err);
 fm_status pass_dispatch(fm_instance *instance, const fm_pass *pass, const built_pass *built,
@@ -91,6 +93,13 @@ fm_status pass_source(fm_text *text, const built_pass *built, const fm_instance 
                       const fm_pass *pass, fm_error *err);
 
 /* instance_passes.c */
+/* Whether its shader sees the scene's triangles. */
+bool pass_reads_triangles(const fm_instance *instance, const fm_pass *pass);
+/* Invocations of each unit. */
+static inline uint32_t pass_lanes(const fm_pass *pass)
+{
+    return pass->lanes > 0 ? pass->lanes : 1;
+}
 fm_status passes_create(fm_instance *instance, fm_error *err);
 void passes_destroy(fm_instance *instance);
 const char *option_value(const fm_instance *instance, const fm_option *option);

@@ -91,10 +91,17 @@ static void add_emit(built_pass *built, fm_instance *instance)
         add_stage(built, instance, STAGE_OUTPUT_BACK, FM_ACCESS_READ | FM_ACCESS_WRITE);
 }
 
+bool pass_reads_triangles(const fm_instance *instance, const fm_pass *pass)
+{
+    return instance->desc.stage->feed == FM_FEED_TRIANGLES &&
+           (pass->kind == FM_PASS_TRIANGLES || pass->kind == FM_PASS_TILES ||
+            pass->kind == FM_PASS_TOTAL || pass->kind == FM_PASS_INDIRECT);
+}
+
 static void collect_uses(built_pass *built, fm_instance *instance, const fm_pass *pass)
 {
     const bool is_shared = pass_is_scene(pass); /* many invocations a pixel */
-    if (pass_is_scene(pass)) {
+    if (pass_is_scene(pass) || pass_reads_triangles(instance, pass)) {
         built->use_count =
             stage_uses(built->uses, instance->desc.stage, pass_geometry(instance, pass));
         built->stage_use_count = built->use_count;

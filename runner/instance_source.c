@@ -91,6 +91,10 @@ static void define_all(fm_text *text, const fm_instance *instance, const fm_pass
     shader_define(text, "FM_TARGETS", pass_has_fixed_function(pass));
     shader_define(text, "FM_EMIT_FIRST", emits_first(instance, pass));
     culling_define(text, pass, instance->desc.settings);
+    shader_define(text, "FM_GROUP_LANES", FM_GROUP_LANES);
+    shader_define(text, "FM_LOOP_LIMIT", caps->loop_limit);
+    shader_define(text, "FM_SUBGROUP_SIZE", caps->subgroup_size);
+    shader_define_features(text, instance->method->features_optional, caps->features);
     if (instance->emits_back)
         shader_define(text, "FM_EMITS_BACK", 1);
     if (instance->desc.is_capture) {
@@ -161,6 +165,7 @@ static void add_index_main(fm_text *text, const fm_instance *instance, const fm_
 {
     char name[64];
     glsl_name(name, pass->name);
+    const uint32_t lanes = pass_lanes(pass);
     text_add(text, "void main()\n{\n"
                    "    uint id = gl_GlobalInvocationID.y * (gl_NumWorkGroups.x * "
                    "gl_WorkGroupSize.x)\n        + gl_GlobalInvocationID.x;\n");
@@ -168,18 +173,25 @@ static void add_index_main(fm_text *text, const fm_instance *instance, const fm_
         text_add(text, "    if (id >= %uu)\n        return;\n",
                  (uint32_t)pass_invocations(instance, pass));
     if (pass->kind == FM_PASS_TOTAL) /* the total travels in the parameter block */
-        text_add(text, "    if (id >= fm_band_first)\n        return;\n");
-    text_add(text, "    %s(id);\n}\n", name);
+        text_add(text, "    if (id / %uu >= fm_band_first)\n        return;\n", lanes);
+    text_add(text, "    fm_lane = id %% %uu;\n    %s(id / %uu);\n}\n",
+             pass->kind == FM_PASS_INDIRECT ? (uint32_t)STAGE_GROUP_SIZE : lanes, name, lanes);
 }
 
 static fm_status add_body(fm_text *text, const fm_instance *instance, const fm_pass *pass,
                           bool drawn, fm_error *err)
 {
     const fm_shader_folders *folders = &instance->desc.folders;
+    const bool reads_triangles = pass_reads_triangles(instance, pass);
     fm_status status = shader_add_file(text, folders, "common/prelude.glsl", err);
-    if (status == FM_OK && pass_is_scene(pass) && pass->cover == FM_COVER_NONE &&
+    if (status == FM_OK && (pass_is_scene(pass) || reads_triangles) &&
+        pass->cover == FM_COVER_NONE &&
         scene_is_layers(instance->desc.stage->scene))
         status = shader_add_file(text, folders, "common/layers.glsl", err);
+    if (pass->kind != FM_PASS_PIXELS && !pass_is_scene(pass))
+        text_add(text, "uint fm_lane;\n");
+    if (status == FM_OK && reads_triangles)
+        status = shader_add_file(text, folders, "common/triangles.glsl", err);
     if (status == FM_OK && pass->emits)
         status = shader_add_file(text, folders, "common/emit.glsl", err);
     if (status == FM_OK)
@@ -214,7 +226,8 @@ static uint32_t features_of(const built_pass *built, const fm_instance *instance
                             const fm_pass *pass)
 {
     const uint32_t chosen = FM_FEATURE_INTERLOCK | FM_FEATURE_BUFFER_ADDRESS;
-    uint32_t features = instance->method->features & ~chosen;
+    const uint32_t optional = instance->method->features_optional & instance->device->caps.features;
+    uint32_t features = (instance->method->features | optional) & ~chosen;
     if (!built->is_drawn) /* a fragment shader's alone */
         features &= ~(uint32_t)FM_FEATURE_STENCIL_EXPORT;
     if (has_interlock(instance, pass))

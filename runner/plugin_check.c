@@ -186,7 +186,11 @@ static fm_status check_head(const fm_method_desc *m, fm_error *err)
     if (status == FM_OK)
         status = check_bits(m->features, FM_FEATURES_ALL, "features", err);
     if (status == FM_OK)
+        status = check_bits(m->features_optional, FM_FEATURES_ALL, "features_optional", err);
+    if (status == FM_OK)
         status = check_bits(m->feeds, FM_FEEDS_ALL, "feeds", err);
+    if (status == FM_OK && (m->feeds & FM_FEED_TRIANGLES) != 0 && m->feeds != FM_FEED_TRIANGLES)
+        status = fm_fail(err, FM_INVALID, "feeds: FM_FEED_TRIANGLES stands alone");
     if (status == FM_OK)
         status = check_range(m->keeps, FM_KEEPS_COUNT, "keeps", err);
     if (status == FM_OK)

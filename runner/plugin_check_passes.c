@@ -298,6 +298,20 @@ static fm_status check_flat_option(const fm_checked_method *check, const fm_pass
     return fm_fail(err, FM_INVALID, "flat_option '%s': has no value 'flat'", pass->flat_option);
 }
 
+static fm_status check_lanes(const fm_pass *pass, fm_error *err)
+{
+    if (pass->lanes == 0)
+        return FM_OK;
+    if (pass->kind != FM_PASS_TILES && pass->kind != FM_PASS_TRIANGLES &&
+        pass->kind != FM_PASS_TOTAL)
+        return fm_fail(err, FM_INVALID, "lanes: a pass of kind %s has none",
+                       kind_rules[pass->kind].name);
+    if (pass->lanes > FM_GROUP_LANES || (pass->lanes & (pass->lanes - 1)) != 0)
+        return fm_fail(err, FM_INVALID, "lanes: %" PRIu32 ": a power of two, %d at most",
+                       pass->lanes, FM_GROUP_LANES);
+    return FM_OK;
+}
+
 static fm_status check_flags(const fm_checked_method *check, const fm_pass *pass, fm_error *err)
 {
     if (pass->exclusive && pass->kind != FM_PASS_SCENE)
@@ -310,10 +324,14 @@ static fm_status check_flags(const fm_checked_method *check, const fm_pass *pass
         (pass->kind != FM_PASS_SCENE || check->method->feeds != FM_FEED_RASTER))
         return fm_fail(err, FM_INVALID,
                        "cover: only scene passes of methods that take the raster feed only");
-    if (pass->emits && pass->kind != FM_PASS_PIXELS)
+    if (pass->emits && pass->kind != FM_PASS_PIXELS && pass->kind != FM_PASS_TILES)
         return fm_fail(err, FM_INVALID, "emits: a pass of kind %s cannot",
                        kind_rules[pass->kind].name);
-    return check_flat_option(check, pass, err);
+    if (check->method->feeds == FM_FEED_TRIANGLES && pass->kind == FM_PASS_SCENE)
+        return fm_fail(err, FM_INVALID,
+                       "kind scene: the feed triangles has no fragments, only triangles");
+    const fm_status status = check_lanes(pass, err);
+    return status == FM_OK ? check_flat_option(check, pass, err) : status;
 }
 
 /* count_total and indirect: needed by one kind, forbidden to the others. */

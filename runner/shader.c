@@ -56,8 +56,27 @@ static const struct feature_words {
     { FM_FEATURE_INTERLOCK, "GL_ARB_fragment_shader_interlock" },
     { FM_FEATURE_STENCIL_EXPORT, "GL_ARB_shader_stencil_export" },
     { FM_FEATURE_BUFFER_ADDRESS, "GL_EXT_buffer_reference" },
+    { FM_FEATURE_SUBGROUP_BALLOT, "GL_KHR_shader_subgroup_basic" },
     { FM_FEATURE_SUBGROUP_BALLOT, "GL_KHR_shader_subgroup_ballot" },
 };
+
+static const struct feature_define {
+    uint32_t feature;
+    const char *name;
+} feature_defines[] = {
+    { FM_FEATURE_INT64_ATOMICS, "FM_HAS_INT64_ATOMICS" },
+    { FM_FEATURE_INTERLOCK, "FM_HAS_INTERLOCK" },
+    { FM_FEATURE_STENCIL_EXPORT, "FM_HAS_STENCIL_EXPORT" },
+    { FM_FEATURE_BUFFER_ADDRESS, "FM_HAS_BUFFER_ADDRESS" },
+    { FM_FEATURE_SUBGROUP_BALLOT, "FM_HAS_SUBGROUP_BALLOT" },
+};
+
+void shader_define_features(fm_text *text, uint32_t wanted, uint32_t there)
+{
+    for (size_t i = 0; i < sizeof feature_defines / sizeof feature_defines[0]; i++)
+        if ((wanted & feature_defines[i].feature) != 0)
+            shader_define(text, feature_defines[i].name, (there & feature_defines[i].feature) != 0);
+}
 
 void shader_begin(fm_text *text, const fm_device_caps *caps, uint32_t features)
 {

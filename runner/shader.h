@@ -60,6 +60,8 @@ typedef struct fm_shader_folders {
  * device has), and what depends on the device alone. */
 void shader_begin(fm_text *text, const fm_device_caps *caps, uint32_t features);
 void shader_define(fm_text *text, const char *name, uint64_t value);
+/* FM_HAS_NAME 1 or 0 for each of the wanted FM_FEATURE_NAME. */
+void shader_define_features(fm_text *text, uint32_t wanted, uint32_t there);
 /* Parameter block, table block and the declaration of each used resource. part names the shader's
  * stage: OpenGL takes blocks of one name in two stages for one block, which must then be equal. */
 void shader_declare(fm_text *text, const fm_use *uses, size_t count, const char *part);

@@ -4,6 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "triangles.h"
+
+/* 29 bits number a triangle; the 3 above, a part of a clipped one. */
+#define TRIANGLES_MAX ((1u << 29) - 1u)
 enum { INDICES_PER_QUAD = 6, CORNERS_PER_QUAD = 4 };
 
 static const struct slot_words {
@@ -12,6 +16,8 @@ static const struct slot_words {
     [STAGE_LAYERS] = { "fm_layers", "fm_layer" },
     [STAGE_ORDER] = { "fm_order", "uint" },
     [STAGE_CLIP] = { "fm_clip_from_object", "vec4" },
+    [STAGE_VERTICES] = { "fm_vertices", "uvec4" },
+    [STAGE_INDICES] = { "fm_indices", "uint" },
     [STAGE_LIST] = { "fm_list", "uvec2" },
     [STAGE_LIST_PIXELS] = { "fm_list_pixels", "uint" },
     [STAGE_LIST_OFFSETS] = { "fm_list_offsets", "uint" },
@@ -137,10 +143,28 @@ static fm_status write_indices(void *user, uint32_t first, const uint32_t *indic
                                             (uint64_t)count * sizeof *indices, err);
 }
 
+/* The scene is held. */
+static fm_status create_mesh_slots(fm_stage *stage, fm_error *err)
+{
+    const fm_scene *scene = stage->scene;
+    fm_status status =
+        create_slot(stage, STAGE_VERTICES, scene->vertex_count * sizeof scene->vertices[0],
+                    scene->vertices, false, err);
+    if (status == FM_OK)
+        status = create_slot(stage, STAGE_INDICES, scene->index_count * sizeof scene->indices[0],
+                             scene->indices, false, err);
+    if (status == FM_OK)
+        status = create_slot(stage, STAGE_CLIP, scene->instances * 16ull * sizeof(float),
+                             scene->clip_from_object, false, err);
+    return status;
+}
+
 static fm_status create_mesh(fm_stage *stage, fm_error *err)
 {
     const fm_scene *scene = stage->scene;
     const fm_mesh_sink sink = { stage, write_vertices, write_indices };
+    if (stage->feed == FM_FEED_TRIANGLES)
+        return create_mesh_slots(stage, err);
     if (stage->feed != FM_FEED_RASTER)
         return FM_OK;
     fm_status status =
@@ -267,6 +291,18 @@ static fm_status create_shared(fm_stage *stage, fm_error *err)
     return status;
 }
 
+/* As a renderer knows from bounding boxes: without triangles that are cut, nothing is clipped. */
+static fm_status look_at_triangles(fm_stage *stage, fm_error *err)
+{
+    const fm_scene *scene = stage->scene;
+    if (scene->triangles > TRIANGLES_MAX)
+        return fm_fail(err, FM_UNSUPPORTED,
+                       "%" PRIu64 " triangles: the feed triangles carries %u at most",
+                       scene->triangles, TRIANGLES_MAX);
+    stage->clips = triangles_need_clip(scene);
+    return FM_OK;
+}
+
 fm_status stage_create(fm_stage **out, fm_device *device, const fm_scene *scene,
                        const fm_truth *truth, uint32_t feed, fm_error *err)
 {
@@ -285,15 +321,18 @@ fm_status stage_create(fm_stage **out, fm_device *device, const fm_scene *scene,
                                      .type = slot_words[i].type,
                                      .table_index = i,
                                      .in_table = true };
-    stage->replays = feed != FM_FEED_RASTER && !is_flat_layers(stage);
+    const bool is_compute = (feed & (FM_FEED_RASTER | FM_FEED_TRIANGLES)) == 0;
+    stage->replays = is_compute && !is_flat_layers(stage);
     fm_status status = create_shared(stage, err);
+    if (status == FM_OK && feed == FM_FEED_TRIANGLES)
+        status = look_at_triangles(stage, err);
     if (status == FM_OK && scene_is_layers(stage->scene) && !stage->replays)
         status = create_layers(stage, err);
     if (status == FM_OK && !scene_is_layers(stage->scene))
         status = create_mesh(stage, err);
     if (status == FM_OK && stage->replays)
         status = create_replay(stage, truth, err);
-    if (status == FM_OK && feed != FM_FEED_RASTER)
+    if (status == FM_OK && is_compute)
         status = count_invocations(stage, truth, err);
     if (status == FM_OK)
         *out = stage;

@@ -11,6 +11,8 @@ enum {
     STAGE_LAYERS,         /* fm_layer: the layers recipe */
     STAGE_ORDER,          /* uint: arrival -> layer */
     STAGE_CLIP,           /* vec4: matrices of mesh instances */
+    STAGE_VERTICES,       /* uvec4 (position bits, colour): feed triangles, as the next */
+    STAGE_INDICES,        /* uint */
     STAGE_LIST,           /* uvec2 (depth bits, colour): captured fragments to replay */
     STAGE_LIST_PIXELS,    /* uint: pixel of each */
     STAGE_LIST_OFFSETS,   /* uint: where each pixel's begin (compute-pixel) */
@@ -31,7 +33,7 @@ enum {
 };
 
 /* Invocations of a workgroup, of every compute shader. */
-enum { STAGE_GROUP_SIZE = 64 };
+enum { STAGE_GROUP_SIZE = FM_GROUP_LANES };
 
 /* What a scene pass draws. */
 typedef enum fm_geometry {
@@ -54,6 +56,7 @@ typedef struct fm_stage {
     uint32_t n;           /* most fragments of a pixel */
     uint64_t invocations; /* of a compute feed */
     bool replays;         /* a compute feed from the captured list */
+    bool clips;           /* feed triangles: some have to be clipped */
     fm_buffers buffers;   /* how storage buffers are reached */
     fm_slot slots[STAGE_SLOT_COUNT];
     fm_buffer *params;

@@ -2,6 +2,9 @@
 #include "stage.h"
 
 #include <inttypes.h>
+#include <string.h>
+
+#include "triangles.h"
 
 static void define_layers(fm_text *text, const fm_stage *stage, bool is_flat)
 {
@@ -22,6 +25,27 @@ static void define_layers(fm_text *text, const fm_stage *stage, bool is_flat)
     text_add(text, "struct fm_layer { float depth, slope_x, slope_y; uint colour; };\n");
 }
 
+/* As bits: a decimal would have to survive two parsers. */
+static void define_float(fm_text *text, const char *name, float value)
+{
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    text_add(text, "#define %s uintBitsToFloat(0x%08Xu)\n", name, bits);
+}
+
+static void define_triangles(fm_text *text, const fm_stage *stage)
+{
+    const fm_scene *scene = stage->scene;
+    const uint32_t each = triangles_per_instance(scene);
+    shader_define(text, "FM_TRIANGLES", scene->triangles);
+    shader_define(text, "FM_INSTANCE_TRIANGLES", each > 0 ? each : 1); /* a divisor */
+    shader_define(text, "FM_CLIPS", stage->clips);
+    define_float(text, "FM_GUARD_X", raster_guard(scene->width_px));
+    define_float(text, "FM_GUARD_Y", raster_guard(scene->height_px));
+    define_float(text, "FM_NDC_STEP_X", triangles_ndc_step(scene->width_px));
+    define_float(text, "FM_NDC_STEP_Y", triangles_ndc_step(scene->height_px));
+}
+
 void stage_define(fm_text *text, const fm_stage *stage, fm_geometry geometry)
 {
     const fm_scene *scene = stage->scene;
@@ -34,7 +58,9 @@ void stage_define(fm_text *text, const fm_stage *stage, fm_geometry geometry)
     }
     if (scene_is_layers(stage->scene))
         define_layers(text, stage, geometry == FM_GEOMETRY_FLAT);
-    if (stage->feed == FM_FEED_RASTER)
+    if (stage->feed == FM_FEED_TRIANGLES)
+        define_triangles(text, stage);
+    if ((stage->feed & (FM_FEED_RASTER | FM_FEED_TRIANGLES)) != 0)
         return;
     shader_define(text, "FM_FEED_PIXEL", stage->feed == FM_FEED_COMPUTE_PIXEL);
     shader_define(text, "FM_FEED_ADJACENT", stage->feed == FM_FEED_COMPUTE_ADJACENT);

@@ -25,14 +25,23 @@
  *                 fragments that it would refuse (its answer may be stale; own_cull=off)
  *   pixel pass    (FM_PASS_PIXELS) defines  void NAME(uvec2 pixel), NAME being the pass's name
  *                 with '-' written '_'
- *   other passes  define  void NAME(uint index): a tile, a triangle, or a unit of a total
+ *   other passes  define  void NAME(uint index): a tile, a triangle, or a unit of a total; with
+ *                 fm_pass.lanes > 1 fm_lane tells the invocations of a unit apart
+ *   triangles     in the feed of that name, passes over tiles, triangles, totals and indirect ones
+ *                 see the scene's FM_TRIANGLES triangles in drawing order (common/triangles.glsl:
+ *                 fm_triangle, fm_triangle_colour, fm_triangle_lives), and rasterise as truth does
+ *                 with #include "common/rasterise.glsl"
  *   emit          fm_emit(pixel, rank, depth, colour) hands over one fragment: rank counts from the
- *                 front (0, 1, ...) in front-to-back order, or from the back (-1, -2, ...)
+ *                 front (0, 1, ...) in front-to-back order, or from the back (-1, -2, ...).
+ *                 A pass over tiles does so between its own calls of fm_emit_begin(pixel) and
+ *                 fm_emit_end(pixel), once for every pixel of the viewport
  *                 fm_blended(pixel, colour), instead, hands over one vec4 (premultiplied) where an
  *                 approximation has a colour and no fragments: the image is then its only error
  *   losses        fm_lost(pixel) counts a fragment that found no room
  *   events        fm_culled(), fm_locked() count in the checked build only
  *   loops         fm_iteration is the number of the running iteration, from 0
+ *   devices       FM_SUBGROUP_SIZE; FM_HAS_FEATURE is 1 or 0 for each of features_optional;
+ *                 FM_LOOP_LIMIT iterations of all loops of an invocation, 0: any
  * colour is RGBA8, red in the low byte, premultiplied by alpha; depth is in [0,1]. */
 #ifndef FRAGMARK_METHOD_H
 #define FRAGMARK_METHOD_H
@@ -43,7 +52,7 @@
 
 #include "fragmark/status.h"
 
-#define FM_ABI 1u
+#define FM_ABI 2u
 
 enum {
     FM_MAX_OPTIONS = 8,
@@ -54,6 +63,7 @@ enum {
     FM_MAX_TOTALS = 8,
     FM_MAX_TARGETS = 8,
     FM_MAX_ACCESSES = 16,
+    FM_GROUP_LANES = 64, /* invocations of a workgroup, of every compute pass */
     FM_TILE_PX = 8, /* side of the tiles that FM_PASS_TILES and per_tile count */
 };
 
@@ -336,7 +346,7 @@ typedef struct fm_pass {
     fm_target targets[FM_MAX_TARGETS];
     fm_state state;
     bool exclusive;          /* store() runs alone at its pixel: spin lock or interlock */
-    bool emits;              /* FM_PASS_PIXELS only: calls fm_emit; the last such pass completes
+    bool emits;              /* FM_PASS_PIXELS, FM_PASS_TILES: calls fm_emit; the last such pass completes
                                 the image */
     bool flat_tessellation;  /* a scene pass whose fragments do not depend on the tessellation is
                                 drawn with t = 1 */
@@ -345,6 +355,9 @@ typedef struct fm_pass {
     uint32_t clear_word;     /* FM_PASS_CLEAR */
     const char *flat_option; /* flat_tessellation holds only where this option is "flat" */
     fm_cover cover;          /* FM_PASS_SCENE of methods that take the raster feed only */
+    uint32_t lanes; /* FM_PASS_TILES, _TRIANGLES, _TOTAL: invocations of each unit, side by side in
+                       a workgroup: a power of two; 0 is 1. With FM_GROUP_LANES a unit has a
+                       workgroup of its own, and may use shared memory and barriers */
 } fm_pass;
 
 /* Passes first..last (by name) run again and again: `count` times (constant + per k + per n + the
@@ -387,7 +400,8 @@ typedef struct fm_method_desc {
     const char *version; /* changes whenever results may */
     uint32_t traits;     /* FM_TRAIT_* */
     uint32_t features;   /* FM_FEATURE_* */
-    uint32_t feeds;      /* FM_FEED_*; 0 is FM_FEEDS_FRAGMENTS */
+    uint32_t feeds;      /* FM_FEED_*; 0 is FM_FEEDS_FRAGMENTS; FM_FEED_TRIANGLES stands alone and
+                            has no scene passes */
     fm_keeps keeps;
     uint32_t k_max; /* largest k; 0 is no limit */
     fm_family family;
@@ -411,6 +425,8 @@ typedef struct fm_method_desc {
     /* Techniques of the simulated tile-based GPU have this in place of resources, totals, passes,
      * loops and the hooks above, and FM_FEED_FRAMES for their only feed (fragmark/technique.h). */
     const struct fm_technique *technique;
+
+    uint32_t features_optional; /* FM_FEATURE_* that shaders use where the device has them */
 } fm_method_desc;
 
 /* The one symbol of a plugin. Compile plugins with hidden visibility. */
