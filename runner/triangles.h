@@ -1,5 +1,6 @@
 /* The triangles of a scene, on the host, as the feed `triangles` hands them to methods:
- * methods/common/triangles.glsl is the twin on the device, bit for bit. Meshes are held (scene_hold). */
+ * methods/common/triangles.glsl is the twin on the device, bit for bit. Meshes are held
+ * (scene_hold). */
 #ifndef FM_TRIANGLES_H
 #define FM_TRIANGLES_H
 

@@ -7,7 +7,7 @@
 #include "scene_file.h"
 #include "scene_kit.h"
 
-enum { LARGE_N = 100, FEEDS = 4 };
+enum { LARGE_N = 100, FEEDS = 5 };
 static const char folder[] = "hard/";
 
 static bool wants_all(void)
@@ -65,7 +65,7 @@ static bool is_judged(const fm_method_desc *method)
 static void check_method(kit_scene *scene, const fm_method_desc *method, uint32_t feeds,
                          const char *name)
 {
-    for (uint32_t feed = FM_FEED_RASTER; feed <= FM_FEED_COMPUTE_ADJACENT; feed <<= 1) {
+    for (uint32_t feed = FM_FEED_RASTER; feed <= FM_FEED_TRIANGLES; feed <<= 1) {
         const kit_way way = { method->id, feed, "k=8" };
         fm_measurement m;
         char where[256], at[320];

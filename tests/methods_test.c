@@ -129,7 +129,7 @@ static void expect_exact(const fm_measurement *m, bool any_ties, const char *whe
  * quarter of the time. */
 static bool is_its_turn(size_t scene, size_t method, uint32_t feed)
 {
-    return feed == (uint32_t)FM_FEED_RASTER << (scene + method) % 4;
+    return feed == FM_FEED_TRIANGLES || feed == (uint32_t)FM_FEED_RASTER << (scene + method) % 4;
 }
 
 enum { ALL_FEEDS = -1 };
@@ -145,7 +145,7 @@ static void on_each_right(kit_scene *scene, int number, const char *texts, each_
     const bool any_ties = kit_has_ties(scene->truth);
     for (size_t i = 0; i < scene->kit->plugins.count; i++) {
         const fm_method_desc *method = kit_method(scene->kit, i);
-        for (uint32_t feed = FM_FEED_RASTER; feed <= FM_FEED_COMPUTE_ADJACENT; feed <<= 1)
+        for (uint32_t feed = FM_FEED_RASTER; feed <= FM_FEED_TRIANGLES; feed <<= 1)
             if ((kit_feeds(method) & feed) != 0 && kit_is_right(method, any_ties) &&
                 (number == ALL_FEEDS || is_its_turn((size_t)number, i, feed)))
                 body(scene, method, &(kit_way){ method->id, feed, texts }, more);

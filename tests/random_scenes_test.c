@@ -115,7 +115,7 @@ static void measure_all(outcomes *seen, kit_scene *scene, const random_scene *fr
     char wrong[600], where[256];
     for (size_t i = 0; i < scene->kit->plugins.count; i++) {
         const fm_method_desc *method = kit_method(scene->kit, i);
-        for (uint32_t feed = FM_FEED_RASTER; feed <= FM_FEED_COMPUTE_ADJACENT; feed <<= 1) {
+        for (uint32_t feed = FM_FEED_RASTER; feed <= FM_FEED_TRIANGLES; feed <<= 1) {
             const kit_way way = { .method = method->id, .feed = feed, .texts = from->k };
             if ((kit_feeds(method) & feed) == 0 || !kit_is_right(method, any_ties))
                 continue;

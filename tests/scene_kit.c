@@ -13,8 +13,6 @@ void kit_open(scene_kit *kit, fm_device *device)
     kit->device = device;
     if (plugin_list_open(&kit->plugins, NULL, &err) != FM_OK)
         fail_msg("%s", err.message);
-    if (plugin_list_floor(&kit->floor, &kit->plugins, &err) != FM_OK)
-        fail_msg("%s", err.message);
 }
 
 void kit_close(scene_kit *kit)
@@ -32,7 +30,8 @@ const fm_method_desc *kit_method(const scene_kit *kit, size_t index)
 
 uint32_t kit_feeds(const fm_method_desc *method)
 {
-    return (method->feeds != 0 ? method->feeds : FM_FEEDS_FRAGMENTS) & FM_FEEDS_FRAGMENTS;
+    return (method->feeds != 0 ? method->feeds : FM_FEEDS_FRAGMENTS) &
+           (FM_FEEDS_FRAGMENTS | FM_FEED_TRIANGLES);
 }
 
 bool kit_has(const scene_kit *kit, const char *method)
@@ -74,24 +73,36 @@ static void apply(fm_settings *settings, fm_choice *choices, size_t *count, cons
     }
 }
 
-static void capture(kit_scene *scene)
+static void capture(fm_truth **truth, char path[32], const kit_scene *scene, uint32_t feed)
 {
     fm_error err = { .message = "" };
-    snprintf(scene->truth_path, sizeof scene->truth_path, "/tmp/fm-truth-XXXXXX");
-    const int fd = mkstemp(scene->truth_path);
+    snprintf(path, 32, "/tmp/fm-truth-XXXXXX");
+    const int fd = mkstemp(path);
     assert_true(fd >= 0);
     close(fd);
-    if (truth_capture(scene->truth_path, scene->kit->device, scene->scene,
+    if (truth_capture(path, scene->kit->device, scene->scene, feed,
                       scene->kit->plugins.common_folder, &err) != FM_OK)
         fail_msg("%s", err.message);
-    if (truth_open(&scene->truth, scene->truth_path, &err) != FM_OK)
+    if (truth_open(truth, path, &err) != FM_OK)
         fail_msg("%s", err.message);
 }
 
 void kit_scene_take(kit_scene *scene, scene_kit *kit, fm_scene *made)
 {
     *scene = (kit_scene){ .kit = kit, .scene = made };
-    capture(scene);
+    capture(&scene->truth, scene->truth_path, scene, FM_FEED_RASTER);
+}
+
+const fm_truth *kit_truth(kit_scene *scene, uint32_t feed)
+{
+    fm_error err = { .message = "" };
+    if (feed != FM_FEED_TRIANGLES)
+        return scene->truth;
+    if (scene->triangles == NULL && scene_hold(scene->scene, &err) != FM_OK)
+        fail_msg("%s", err.message);
+    if (scene->triangles == NULL)
+        capture(&scene->triangles, scene->triangles_path, scene, feed);
+    return scene->triangles;
 }
 
 void kit_scene_open(kit_scene *scene, scene_kit *kit, const char *texts)
@@ -109,8 +120,11 @@ void kit_scene_open(kit_scene *scene, scene_kit *kit, const char *texts)
 void kit_scene_close(kit_scene *scene)
 {
     truth_close(scene->truth);
+    truth_close(scene->triangles);
     scene_destroy(scene->scene);
     unlink(scene->truth_path);
+    if (scene->triangles_path[0] != '\0')
+        unlink(scene->triangles_path);
 }
 
 bool kit_has_ties(const fm_truth *truth)
@@ -128,16 +142,16 @@ void kit_tell(char text[256], const kit_way *way)
     snprintf(text, 256, "%s, %s, %s", way->method, feed_name(way->feed), way->texts);
 }
 
-static void fill_desc(fm_instance_desc *desc, const kit_scene *scene, const fm_plugin *plugin,
-                      const fm_settings *settings)
+static void fill_desc(fm_instance_desc *desc, const kit_scene *scene, const fm_truth *truth,
+                      const fm_plugin *plugin, const fm_settings *settings)
 {
     const uint32_t places = measure_places(plugin->method, settings->k);
     *desc = (fm_instance_desc){
         .method = plugin->method,
         .folders = { plugin->folder, scene->kit->plugins.common_folder },
         .settings = settings,
-        .fragments = scene->truth->fragment_count,
-        .fragments_kept = truth_kept(scene->truth, places),
+        .fragments = truth->fragment_count,
+        .fragments_kept = truth_kept(truth, places),
     };
 }
 
@@ -153,6 +167,7 @@ typedef struct asked_case {
 static fm_status ask(asked_case *asked, kit_scene *scene, const kit_way *way, fm_error *err)
 {
     const fm_plugin_entry *entry = plugin_list_find(&scene->kit->plugins, way->method);
+    const fm_truth *truth = kit_truth(scene, way->feed);
     size_t choice_count = 0;
     if (entry == NULL || entry->plugin == NULL)
         fail_msg("%s: %s", way->method, entry == NULL ? "plugin not found" : entry->error.message);
@@ -165,7 +180,7 @@ static fm_status ask(asked_case *asked, kit_scene *scene, const kit_way *way, fm
     if (!plugin_has_k(entry->plugin->method))
         asked->settings.k = 0;
     scene->scene->settings.buffers = asked->settings.buffers;
-    fill_desc(&asked->desc, scene, entry->plugin, &asked->settings);
+    fill_desc(&asked->desc, scene, truth, entry->plugin, &asked->settings);
     asked->desc.choices = asked->choices;
     asked->desc.choice_count = choice_count;
     asked->desc.method = &asked->method;
@@ -173,8 +188,7 @@ static fm_status ask(asked_case *asked, kit_scene *scene, const kit_way *way, fm
         culling_apply(&asked->method, entry->plugin->method, &asked->settings, way->feed, err);
     if (status != FM_OK)
         return status;
-    status =
-        stage_create(&asked->stage, scene->kit->device, scene->scene, scene->truth, way->feed, err);
+    status = stage_create(&asked->stage, scene->kit->device, scene->scene, truth, way->feed, err);
     if (status == FM_OK && scene->told_n != 0)
         asked->stage->n = scene->told_n;
     asked->desc.stage = asked->stage;
@@ -185,14 +199,17 @@ fm_status kit_try(fm_measurement *measurement, kit_scene *scene, const kit_way *
                   fm_error *err)
 {
     asked_case asked = { .stage = NULL };
-    fm_instance_desc floor;
+    fm_instance_desc floor_desc;
+    const fm_plugin *floor;
     *measurement = (fm_measurement){ .samples = NULL };
     fm_status status = ask(&asked, scene, way, err);
-    fill_desc(&floor, scene, scene->kit->floor, &asked.settings);
-    floor.stage = asked.stage;
+    if (plugin_list_floor(&floor, &scene->kit->plugins, way->feed, err) != FM_OK)
+        fail_msg("%s", err->message);
+    fill_desc(&floor_desc, scene, kit_truth(scene, way->feed), floor, &asked.settings);
+    floor_desc.stage = asked.stage;
     const fm_measure_desc desc = { .method = &asked.desc,
-                                   .floor = &floor,
-                                   .truth = scene->truth,
+                                   .floor = &floor_desc,
+                                   .truth = kit_truth(scene, way->feed),
                                    .frames = 1,
                                    .warmup = 1,
                                    .check = check };

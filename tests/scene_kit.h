@@ -13,7 +13,6 @@
 typedef struct scene_kit {
     fm_device *device; /* borrowed */
     fm_plugin_list plugins;
-    const fm_plugin *floor;
 } scene_kit;
 
 /* A scene and what the device rasterises of it. */
@@ -22,6 +21,9 @@ typedef struct kit_scene {
     fm_scene *scene;
     fm_truth *truth;
     char truth_path[32];
+    fm_truth
+        *triangles; /* the feed triangles' own; NULL until a method was measured on that feed */
+    char triangles_path[32];
     uint32_t told_n; /* the most fragments of a pixel as methods are told; 0: as it is */
 } kit_scene;
 
@@ -50,6 +52,8 @@ void kit_scene_open(kit_scene *scene, scene_kit *kit, const char *texts);
 /* A scene that the test made by hand: owned from here on. */
 void kit_scene_take(kit_scene *scene, scene_kit *kit, fm_scene *made);
 void kit_scene_close(kit_scene *scene);
+/* What a feed's methods are compared with. */
+const fm_truth *kit_truth(kit_scene *scene, uint32_t feed);
 /* Whether a pixel has two fragments of one depth: which of them comes first is then open. */
 bool kit_has_ties(const fm_truth *truth);
 

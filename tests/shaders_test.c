@@ -62,7 +62,7 @@ static void every_shader_compiles(void **state)
     kit_scene_open(&scene, &kit, SCENE);
     for (size_t i = 0; i < kit.plugins.count; i++) {
         const fm_method_desc *method = kit_method(&kit, i);
-        for (uint32_t feed = FM_FEED_RASTER; feed <= FM_FEED_COMPUTE_ADJACENT; feed <<= 1) {
+        for (uint32_t feed = FM_FEED_RASTER; feed <= FM_FEED_TRIANGLES; feed <<= 1) {
             if ((kit_feeds(method) & feed) == 0)
                 continue;
             build_ks(&seen, &scene, method, feed);

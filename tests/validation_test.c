@@ -24,7 +24,7 @@ static void expect_silence(fm_device *device, const char *where)
 /* Two frames of the timed build and one of the checked one. */
 static void run_method(kit_scene *scene, const fm_method_desc *method, const char *texts)
 {
-    for (uint32_t feed = FM_FEED_RASTER; feed <= FM_FEED_COMPUTE_ADJACENT; feed <<= 1) {
+    for (uint32_t feed = FM_FEED_RASTER; feed <= FM_FEED_TRIANGLES; feed <<= 1) {
         const kit_way way = { method->id, feed, texts };
         fm_measurement m;
         char where[256];

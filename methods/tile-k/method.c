@@ -1,0 +1,55 @@
+#include "fragmark/method.h"
+
+/* tile-k, fragmark's own: published nowhere but in README.md beside this file. */
+const fm_method_desc fm_method = {
+    .abi = FM_ABI,
+    .size_bytes = sizeof(fm_method_desc),
+    .id = "tile-k",
+    .title = "tile-k",
+    .citation = "fragmark, methods/tile-k/README.md",
+    .version = "1",
+    .traits = FM_TRAIT_EXACT,
+    .features_optional = FM_FEATURE_SUBGROUP_BALLOT,
+    .feeds = FM_FEED_TRIANGLES,
+    .family = FM_FAMILY_RASTERISER,
+    .marker = FM_MARKER_DIAMOND,
+    .options = {
+        { .name = "structure", .values = { "auto", "registers", "sorted-array" },
+          .help = "of the window of fragments that are not yet final" },
+        { .name = "window", .values = { "16", "4", "8", "32", "64", "128", "256" },
+          .help = "fragments that it holds at most" },
+        { .name = "used-buckets", .values = { "32", "1", "4", "8", "16" },
+          .help = "of depth in a tile" },
+    },
+    .resources = {
+        { .name = "range", .extent = { .constant = 2 } },
+        { .name = "groups", .extent = { .constant = 4 } }, /* x y z of a dispatch; large ones */
+        { .name = "allocated", .extent = { .constant = 1 } },
+        { .name = "large", .extent = { .per_triangle = 1 } },
+        { .name = "bins", .extent = { .per_tile = 33 } }, /* TILE_WORDS of layout.glsl */
+        { .name = "pairs", .sizing = FM_SIZE_AFTER_TOTAL,
+          .extent = { .per_total = 1, .total = "pairs" } },
+    },
+    .totals = { { .name = "pairs", .resource = "allocated", .pass = "reference" } },
+    .passes = {
+        { .name = "clear", .kind = FM_PASS_CLEAR, .writes = { "bins", "groups", "allocated" } },
+        { .name = "clear-range", .kind = FM_PASS_CLEAR, .writes = { "range" },
+          .clear_word = 0xFFFFFFFFu },
+        { .name = "range-of-depths", .kind = FM_PASS_TILES, .shader = "range.glsl",
+          .writes = { "range" } },
+        { .name = "count", .kind = FM_PASS_TRIANGLES, .shader = "count.glsl",
+          .reads = { "range" }, .writes = { "bins", "groups", "large" } },
+        { .name = "count-large", .kind = FM_PASS_INDIRECT, .indirect = "groups",
+          .shader = "count_large.glsl", .reads = { "range", "groups", "large" },
+          .writes = { "bins" } },
+        { .name = "reference", .kind = FM_PASS_TILES, .shader = "reference.glsl",
+          .reads = { "range" }, .writes = { "bins", "allocated" } },
+        { .name = "fill", .kind = FM_PASS_TRIANGLES, .shader = "fill.glsl",
+          .reads = { "range" }, .writes = { "bins", "pairs" } },
+        { .name = "fill-large", .kind = FM_PASS_INDIRECT, .indirect = "groups",
+          .shader = "fill_large.glsl", .reads = { "range", "groups", "large" },
+          .writes = { "bins", "pairs" } },
+        { .name = "store", .kind = FM_PASS_TILES, .lanes = FM_GROUP_LANES,
+          .shader = "store.glsl", .reads = { "range", "bins", "pairs" }, .emits = true },
+    },
+};
