@@ -36,12 +36,12 @@ static uint32_t chosen_feeds(const fm_chosen *chosen)
     return feeds;
 }
 
-/* Whether the method belongs to the world of fragments, or of frames, that the feeds are of. */
+/* Whether the method belongs to a world that the feeds are of: fragments, triangles or frames. */
 static bool takes_some(const fm_plugin_entry *entry, uint32_t feeds)
 {
     const uint32_t taken = entry->plugin != NULL ? entry->plugin->method->feeds : 0;
-    return taken == FM_FEED_FRAMES ? (feeds & FM_FEED_FRAMES) != 0
-                                   : (feeds & ~(uint32_t)FM_FEED_FRAMES) != 0;
+    const bool is_alone = taken == FM_FEED_FRAMES || taken == FM_FEED_TRIANGLES;
+    return (feeds & (is_alone ? taken : FM_FEEDS_FRAGMENTS)) != 0;
 }
 
 /* All that are no controls, of the kind that the feeds are for. */

@@ -163,6 +163,12 @@ static uint64_t kplus_in_s_buffer(const workload *w)
     return 8 * w->kept + 12 * w->pixels + 8 * 32;
 }
 
+/* And a counter of triangles that are not finished. */
+static uint64_t freepipe(const workload *w)
+{
+    return a_buffer(w) + 4;
+}
+
 static const struct formula {
     const char *method;
     uint64_t (*bytes)(const workload *);
@@ -196,6 +202,7 @@ static const struct formula {
     { "precalc-scan", scanned },
     { "l-buffer", l_buffer },
     { "s-buffer", s_buffer },
+    { "freepipe-compute", freepipe },
     { "kb-ab-array", a_buffer },
     { "kb-ab-ll", linked_list },
     { "kb-ab-sb", k_of_s_buffer },
@@ -238,7 +245,9 @@ static void measure_bytes(kit_scene *scene, const fm_method_desc *method, uint32
     char texts[16];
     fm_measurement m;
     snprintf(texts, sizeof texts, "k=%u", k);
-    if (kit_measure_times(&m, scene, &(kit_way){ method->id, FM_FEED_RASTER, texts })) {
+    const uint32_t alone = kit_feeds(method) & FM_FEED_TRIANGLES;
+    const uint32_t feed = alone != 0 ? alone : FM_FEED_RASTER;
+    if (kit_measure_times(&m, scene, &(kit_way){ method->id, feed, texts })) {
         if (m.bytes_allocated != m.bytes_predicted)
             fail_msg("%s, k=%u: %llu bytes allocated, %llu predicted", method->id, k,
                      (unsigned long long)m.bytes_allocated, (unsigned long long)m.bytes_predicted);

@@ -129,7 +129,8 @@ static void expect_exact(const fm_measurement *m, bool any_ties, const char *whe
  * quarter of the time. */
 static bool is_its_turn(size_t scene, size_t method, uint32_t feed)
 {
-    return feed == FM_FEED_TRIANGLES || feed == (uint32_t)FM_FEED_RASTER << (scene + method) % 4;
+    const uint32_t turn = (uint32_t)FM_FEED_RASTER << (scene + method) % 4;
+    return feed == turn || (feed == FM_FEED_TRIANGLES && turn == FM_FEED_RASTER);
 }
 
 enum { ALL_FEEDS = -1 };

@@ -63,7 +63,7 @@ const fm_device_ops *device_find(const char *name)
 
 uint32_t device_feeds(const fm_device_ops *ops)
 {
-    return ops->feeds != 0 ? ops->feeds : FM_FEEDS_FRAGMENTS;
+    return ops->feeds != 0 ? ops->feeds : FM_FEEDS_FRAGMENTS | FM_FEED_TRIANGLES;
 }
 
 fm_status device_open(fm_device **device, const char *name, const fm_device_desc *desc,

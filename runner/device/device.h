@@ -188,7 +188,7 @@ typedef struct fm_frame_times {
 /* The table. Functions that can fail return fm_status and fill *err. */
 typedef struct fm_device_ops {
     const char *name; /* "vulkan" */
-    uint32_t feeds;   /* FM_FEED_*; 0 is FM_FEEDS_FRAGMENTS. A device of feed `frames` alone runs no
+    uint32_t feeds;   /* FM_FEED_*; 0 is all but frames. A device of feed `frames` alone runs no
                          passes: of the functions below only those up to validation_errors count */
 
     /* Lists what could be opened; *count is in: room, out: how many. */

@@ -64,7 +64,7 @@ enum {
     FM_MAX_TARGETS = 8,
     FM_MAX_ACCESSES = 16,
     FM_GROUP_LANES = 64, /* invocations of a workgroup, of every compute pass */
-    FM_TILE_PX = 8, /* side of the tiles that FM_PASS_TILES and per_tile count */
+    FM_TILE_PX = 8,      /* side of the tiles that FM_PASS_TILES and per_tile count */
 };
 
 /* What is true of a method. */
@@ -345,9 +345,9 @@ typedef struct fm_pass {
     const char *writes[FM_MAX_ACCESSES]; /* resources read and written, or only written */
     fm_target targets[FM_MAX_TARGETS];
     fm_state state;
-    bool exclusive;          /* store() runs alone at its pixel: spin lock or interlock */
-    bool emits;              /* FM_PASS_PIXELS, FM_PASS_TILES: calls fm_emit; the last such pass completes
-                                the image */
+    bool exclusive; /* store() runs alone at its pixel: spin lock or interlock */
+    bool emits;     /* FM_PASS_PIXELS, FM_PASS_TILES: calls fm_emit; the last such pass completes
+                       the image */
     bool flat_tessellation;  /* a scene pass whose fragments do not depend on the tessellation is
                                 drawn with t = 1 */
     const char *count_total; /* FM_PASS_TOTAL */
