@@ -336,7 +336,7 @@ uint32_t layers_sorted(fm_fragment *fragments, const fm_scene *scene, uint32_t x
     if (!is_covered(&scene->rect, x, y))
         return 0;
     for (uint32_t layer = 0; layer < scene->n; layer++)
-        if (fragment_lives(scene, x, y, layer))
+        if (layers_lives(scene, x, y, layer))
             fragments[count++] =
                 (fm_fragment){ scene->layers[layer].depth, scene->layers[layer].colour };
     return count;

@@ -265,7 +265,7 @@ static void bytes_on(void **state, const char *texts)
     kit_open(&kit, device_of(state));
     kit_scene_open(&scene, &kit, texts);
     for (size_t i = 0; i < kit.plugins.count; i++)
-        for (size_t j = 0; j < sizeof ks / sizeof ks[0]; j++)
+        for (size_t j = 0; j < sizeof ks / sizeof ks[0] && kit_feeds(kit_method(&kit, i)) != 0; j++)
             measure_bytes(&scene, kit_method(&kit, i), ks[j]);
     kit_scene_close(&scene);
     kit_close(&kit);
