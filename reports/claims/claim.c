@@ -11,14 +11,14 @@
 static const char *const claim_keys[] = {
     "id",   "text",    "source", "where",    "why",     "required", "paper",     "plot",
     "form", "of",      "minus",  "over",     "along",   "across",   "level",     "between",
-    "goes", "extreme", "scale",  "at_least", "at_most", "equals",   "tolerance",
+    "goes", "extreme", "scale",  "at_least", "at_most", "equals",   "tolerance", "over_minus",
 };
 static const char *const forms[FM_CLAIM_FORM_COUNT] = {
     [FM_CLAIM_BOUND] = "bound",       [FM_CLAIM_ANY] = "any",
-    [FM_CLAIM_ORDER] = "order",       [FM_CLAIM_MONOTONE] = "monotone",
-    [FM_CLAIM_CROSSING] = "crossing", [FM_CLAIM_PEAK] = "peak",
-    [FM_CLAIM_SLOPE] = "slope",       [FM_CLAIM_SPREAD] = "spread",
-    [FM_CLAIM_IMAGES] = "images",
+    [FM_CLAIM_MEAN] = "mean",         [FM_CLAIM_ORDER] = "order",
+    [FM_CLAIM_MONOTONE] = "monotone", [FM_CLAIM_CROSSING] = "crossing",
+    [FM_CLAIM_PEAK] = "peak",         [FM_CLAIM_SLOPE] = "slope",
+    [FM_CLAIM_SPREAD] = "spread",     [FM_CLAIM_IMAGES] = "images",
 };
 
 /* What a form cannot do without. */
@@ -27,6 +27,7 @@ static const struct {
 } needs[FM_CLAIM_FORM_COUNT] = {
     [FM_CLAIM_BOUND] = { .bounds = true },
     [FM_CLAIM_ANY] = { .bounds = true },
+    [FM_CLAIM_MEAN] = { .bounds = true },
     [FM_CLAIM_MONOTONE] = { .along = true },
     [FM_CLAIM_CROSSING] = { .along = true, .between = true },
     [FM_CLAIM_PEAK] = { .along = true, .between = true },
@@ -238,6 +239,12 @@ static fm_status read_claim(fm_claim *claim, const fm_yaml *map, const fm_yaml_p
         status = read_operand(&claim->minus, &claim->has_minus, claim, map, "minus", at);
     if (status == FM_OK)
         status = read_operand(&claim->over, &claim->has_over, claim, map, "over", at);
+    if (status == FM_OK)
+        status =
+            read_operand(&claim->over_minus, &claim->has_over_minus, claim, map, "over_minus", at);
+    if (status == FM_OK && claim->has_over_minus && !claim->has_over)
+        status = fm_fail(at->err, FM_INVALID, "%s:%u: %s: over_minus needs over", at->path,
+                         map->line, claim->id);
     if (status == FM_OK)
         status = read_bounds(claim, map, at);
     if (status == FM_OK)

@@ -24,14 +24,16 @@
  *   table    summary (default) or memory: memory.csv, with its columns
  *   others   tests on a column, or on an option: a value, a list of values, or ">= 16", "< 16",
  *            "not 16"
- * `minus` and `over` take over from `of` what they do not name, and each row of `of` is paired with
- * the row of the same workload; columns that they name themselves may differ. A point is
- * (of - minus) / over, with an interval. `only` rows of the figure's own cases count.
+ * `minus`, `over` and `over_minus` take over from `of` what they do not name, and each row of `of`
+ * is paired with the row of the same workload; columns that they name themselves may differ. A
+ * point is (of - minus) / (over - over_minus), with an interval. `only` rows of the figure's own
+ * cases count.
  *
  * Forms, and what they need (bounds: at_least, at_most, equals; tolerance, a share of the bound,
  * widens each of them; the default is 0):
  *   bound     every point is within the bounds
  *   any       at least one point is
+ *   mean      the arithmetic mean of all points is
  *   order     of: a list of selections; at each workload each is not above the next, but by the
  *             tolerance
  *   monotone  along, goes (rises or falls): no step goes back by more than the tolerance
@@ -59,6 +61,7 @@ enum { FM_CLAIM_TESTS = 16, FM_CLAIM_SELECTIONS = 12, FM_CLAIMS = 64 };
 typedef enum fm_claim_form {
     FM_CLAIM_BOUND,
     FM_CLAIM_ANY,
+    FM_CLAIM_MEAN,
     FM_CLAIM_ORDER,
     FM_CLAIM_MONOTONE,
     FM_CLAIM_CROSSING,
@@ -98,8 +101,8 @@ typedef struct fm_claim {
     fm_claim_form form;
     fm_selection of[FM_CLAIM_SELECTIONS]; /* one, but for `order` */
     size_t of_count;
-    fm_selection minus, over;
-    bool has_minus, has_over;
+    fm_selection minus, over, over_minus;
+    bool has_minus, has_over, has_over_minus;
     const char *along; /* "": none */
     fm_name_list across;
     double low, high, tolerance; /* bounds before tolerance; infinite: none */

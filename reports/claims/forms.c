@@ -60,6 +60,22 @@ static fm_status judge_bound(judging *to, fm_error *err)
     return FM_OK;
 }
 
+static fm_status judge_mean(judging *to, fm_error *err)
+{
+    const fm_claim_points *points = to->points;
+    const double share = 1.0 / (double)points->count;
+    fm_interval mean = { 0 };
+    (void)err;
+    for (size_t i = 0; i < points->count; i++) {
+        mean.median += share * points->points[i].value.median;
+        mean.low += share * points->points[i].value.low;
+        mean.high += share * points->points[i].value.high;
+    }
+    judge_value(to, mean, NULL, NULL);
+    judging_note(to, "the mean of %zu", points->count);
+    return FM_OK;
+}
+
 /* `next` may lie below `point` by the tolerance only. */
 static void judge_step(judging *to, const fm_claim_point *point, const fm_claim_point *next)
 {
@@ -268,6 +284,7 @@ static const struct {
 } forms[FM_CLAIM_FORM_COUNT] = {
     [FM_CLAIM_BOUND] = { .points = judge_bound },
     [FM_CLAIM_ANY] = { .points = judge_bound },
+    [FM_CLAIM_MEAN] = { .points = judge_mean },
     [FM_CLAIM_ORDER] = { .points = judge_order },
     [FM_CLAIM_IMAGES] = { .points = judge_images },
     [FM_CLAIM_MONOTONE] = { .curve = judge_monotone, .points_needed = 2 },

@@ -173,8 +173,11 @@ static bool evaluate(fm_claim_point *point, points_job *job, const fm_selection 
         point->value = interval_difference(point->value, other);
     }
     if (claim->has_over) {
-        if (!operand(&other, point, job, &claim->over))
+        fm_interval less = { 0 };
+        if ((claim->has_over_minus && !operand(&less, point, job, &claim->over_minus)) ||
+            !operand(&other, point, job, &claim->over))
             return false;
+        other = interval_difference(other, less);
         point->value = interval_ratio(point->value, other);
     }
     return isfinite(point->value.median);
@@ -251,7 +254,10 @@ static void add_memory_points(points_job *job, size_t selection)
         double value = memory_value(of, rows, row);
         if (job->claim->has_minus)
             value -= memory_partner(&job->claim->minus, rows, row);
-        if (job->claim->has_over)
+        if (job->claim->has_over_minus)
+            value /= memory_partner(&job->claim->over, rows, row) -
+                     memory_partner(&job->claim->over_minus, rows, row);
+        else if (job->claim->has_over)
             value /= memory_partner(&job->claim->over, rows, row);
         if (isfinite(value) && job->points->count < job->room)
             job->points->points[job->points->count++] = (fm_claim_point){

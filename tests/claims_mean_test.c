@@ -1,0 +1,44 @@
+/* Claims over sums of points, and over differences: what a paper's averages need. */
+#include "claims_kit.h"
+
+/* Method a takes 10, 20, 40; b takes what is told. */
+static fm_verdict_kind judge(const char *claim, double b4, double b8, double b16)
+{
+    const fakes rows = { { { ROW("a", 4, 0.25, 10) },
+                           { ROW("a", 8, 0.25, 20) },
+                           { ROW("a", 16, 0.25, 40) },
+                           { ROW("b", 4, 0.25, b4) },
+                           { ROW("b", 8, 0.25, b8) },
+                           { ROW("b", 16, 0.25, b16) } } };
+    return judge_beside(claim, &rows, NULL).verdict.kind;
+}
+
+#define RATIO "of: { method: b }\nover: { method: a }\n"
+
+static void mean_allows_a_point_outside(void **state)
+{
+    (void)state; /* ratios 0.5, 0.5, 1.3 */
+    assert_int_equal(judge("form: mean\nat_most: 0.9\n" RATIO, 5, 10, 52), FM_VERDICT_HOLDS);
+    assert_int_equal(judge("form: bound\nat_most: 0.9\n" RATIO, 5, 10, 52), FM_VERDICT_FAILS);
+    assert_int_equal(judge("form: mean\nat_most: 0.6\n" RATIO, 5, 10, 52), FM_VERDICT_FAILS);
+}
+
+#define SHARE                                                                                      \
+    "of: { method: a }\nover: { method: a }\nover_minus: { method: b }\n" /* a / (a - b) is 2 */
+
+static void over_minus_is_taken_from_over(void **state)
+{
+    (void)state;
+    assert_int_equal(judge("form: mean\nat_least: 1.9\nat_most: 2.1\n" SHARE, 5, 10, 20),
+                     FM_VERDICT_HOLDS);
+    assert_int_equal(judge("form: mean\nat_most: 1.5\n" SHARE, 5, 10, 20), FM_VERDICT_FAILS);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(mean_allows_a_point_outside),
+        cmocka_unit_test(over_minus_is_taken_from_over),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
