@@ -84,6 +84,8 @@ static void add_cluster(fm_figure_job *at, bar_place *place, double x, bool leve
         return;
     if (level)
         snprintf(text, sizeof text, "any %.32s", at->from->x);
+    else if (figure_is_by_scene(at))
+        snprintf(text, sizeof text, "%.60s", at->figure->scenes.names[(size_t)x - 1]);
     else
         snprintf(text, sizeof text, "%.32s = %.6g", at->from->x, x);
     add_cluster_title(at, from, place->slot, text);
@@ -111,6 +113,13 @@ static void add_part_keys(fm_figure_job *at)
     }
 }
 
+static bool has_times(const fm_figure_job *at)
+{
+    const char *first = at->from->parts.names[0];
+    const size_t length = strlen(first);
+    return length > 3 && strcmp(first + length - 3, "_ms") == 0;
+}
+
 fm_status figure_make_bars(fm_figure_job *at, double *xs, fm_error *err)
 {
     fm_chart *chart = at->chart;
@@ -122,7 +131,7 @@ fm_status figure_make_bars(fm_figure_job *at, double *xs, fm_error *err)
     if (at->y_count == 0)
         return fm_fail(err, FM_UNSUPPORTED, "%s: no case was measured", at->group->title);
     axis_fit(&chart->y, at->y, at->y_count);
-    snprintf(chart->y.title, sizeof chart->y.title, "time [ms]");
+    snprintf(chart->y.title, sizeof chart->y.title, "%s", has_times(at) ? "time [ms]" : "sum");
     chart->x.low = 0.0;
     chart->x.high = place.slot - 0.5;
     chart->x.length_px = chart->x.high * slot_px;

@@ -5,7 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "claims/match.h"
 #include "figure_job.h"
+#include "text.h"
 #include "workload.h"
 
 static const double plot_width_px = 560, plot_height_px = 380;
@@ -31,9 +33,23 @@ bool figure_is_level(const fm_figure_job *at, const fm_case_row *result)
     return strcmp(at->from->x, "k") == 0 && !group_uses_k(at->group, result);
 }
 
+bool figure_is_by_scene(const fm_figure_job *at)
+{
+    return strcmp(at->from->x, "scene") == 0;
+}
+
+/* Scenes are numbered as the figure lists them; an option's value may be an x too. */
 double figure_x(const fm_figure_job *at, const fm_case_row *result)
 {
-    return result_files_metric(at->results, result, at->from->x);
+    char option[128];
+    for (size_t i = 0; figure_is_by_scene(at) && i < at->figure->scenes.count; i++)
+        if (strcmp(at->figure->scenes.names[i], result->scene) == 0)
+            return (double)(i + 1);
+    double x = result_files_metric(at->results, result, at->from->x);
+    match_option(option, result->options, at->from->x);
+    if (isnan(x) && !text_to_double(&x, option))
+        x = NAN;
+    return x;
 }
 
 /* The distinct x of all measured cases that use x, rising; at least one when anything is measured.

@@ -20,6 +20,8 @@ bool figure_is_level(const fm_figure_job *at, const fm_case_row *result);
 /* The distinct x of all measured cases that use x, rising; at least one when anything is measured.
  */
 size_t figure_distinct_x(double *xs, const fm_figure_job *at);
+/* x is the scene: a place for each that the figure lists, from 1 on. */
+bool figure_is_by_scene(const fm_figure_job *at);
 double figure_x(const fm_figure_job *at, const fm_case_row *result);
 
 /* FM_UNSUPPORTED: nothing to draw. xs: room for one of each case. reference: the same of another

@@ -263,6 +263,7 @@ static const struct {
     { "pixel_density", "pixel density", "" },
     { "tessellation", "tessellation (cells a side)", "" },
     { "width_px", "width of the viewport", "px" },
+    { "scene", "scene, by its place in the figure's list", "" },
 };
 
 static void quantity_title(char title[128], const char *name, const char *unit)
@@ -317,7 +318,7 @@ fm_status figure_make_lines(fm_figure_job *at, const fm_figure_job *reference, d
                        at->from->ratio_to == NULL ? "" : at->from->ratio_to);
     chart->x.scale = FM_SCALE_LOG;
     for (size_t i = 0; i < at->x_count; i++)
-        if (at->x[i] <= 0.0)
+        if (at->x[i] <= 0.0 || figure_is_by_scene(at))
             chart->x.scale = FM_SCALE_LINEAR;
     chart->y.scale = at->from->is_log ? FM_SCALE_LOG : FM_SCALE_LINEAR;
     axis_fit(&chart->x, at->x, at->x_count);

@@ -134,7 +134,7 @@ static bool hides_races(const fm_case_row *result)
 
 static bool has_few_samples(const fm_case_row *result)
 {
-    return result->is_measured && result->samples < FEW_SAMPLES;
+    return result->is_measured && !result->is_simulated && result->samples < FEW_SAMPLES;
 }
 
 static bool is_single_launch(const fm_case_row *result)

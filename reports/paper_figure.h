@@ -11,7 +11,8 @@
  *     - id: time                   part of the file name charts/ID-time-*.svg
  *       kind: lines                or stacked-bars
  *       title: ...
- *       x: k                       a number column of summary.csv
+ *       x: k                       a number column of summary.csv, an option, or scene: a place
+ *                                  for each scene that the run lists
  *       y: frame_ms                lines: any metric, or a list of which the sum is drawn
  *       parts: [clear_ms, ...]     stacked-bars: metrics, from the bottom up
  *       ratio_to: kplus-array      lines: y over that method's at the same x

@@ -113,8 +113,10 @@ static void add_look(fm_case_row *result, const fm_provenance *manifest)
             .id = result->method, .title = result->method, .citation = "", .version = ""
         };
     result->is_ok = result->outcome == FM_CASE_OK;
+    const bool is_timed = isfinite(result->frame_ms) && result->frame_ms > 0.0;
+    result->is_simulated = strcmp(result->feed, "frames") == 0;
     result->is_measured = (result->is_ok || result->outcome == FM_CASE_WRONG_IMAGE) &&
-                          isfinite(result->frame_ms) && result->frame_ms > 0.0;
+                          (is_timed || result->is_simulated);
     /* manifest.json lists devices at the end of a run: until then nothing is claimed of a GPU. */
     result->is_software = device == NULL || device->is_software;
     result->total_rmse = result->rmse;

@@ -29,8 +29,9 @@ typedef struct fm_case_row {
     fm_method_info look;
     uint64_t figures; /* bit i: figure_names[i] holds it */
     bool is_ok;
-    bool is_measured; /* has a time, and its error: ok, or wrong_image */
-    bool is_software; /* the device */
+    bool is_measured;  /* has a time, and its error: ok, or wrong_image */
+    bool is_simulated; /* feed frames: counts and models, no times */
+    bool is_software;  /* the device */
 } fm_case_row;
 
 /* The frame of a number that holds for a case as a whole. */
