@@ -149,6 +149,7 @@ const fm_key fm_keys[] = {
 };
 /* clang-format on */
 enum { KEY_COUNT = sizeof fm_keys / sizeof fm_keys[0] };
+_Static_assert((int)KEY_COUNT <= (int)FM_MAX_KEYS, "fm_case marks the given ones");
 const size_t fm_key_count = KEY_COUNT;
 
 const fm_key *key_find(const char *name)

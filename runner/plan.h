@@ -24,6 +24,7 @@ typedef struct fm_case {
     char device[128]; /* "vulkan", "vulkan:1", "osmesa" */
     char feed[32];    /* "raster", "compute-layer", ... */
     fm_settings settings;
+    bool is_given[FM_MAX_KEYS]; /* by index in fm_keys: an axis sets it, not the scene */
     fm_choice choices[FM_MAX_OPTIONS];
     size_t choice_count;
     char skip[512]; /* not empty: recorded as not_supported with this reason, never run

@@ -126,6 +126,13 @@ static fm_status make_settings(fm_settings *settings, const fm_plan_point *point
     return FM_OK;
 }
 
+static void mark_given(fm_case *made, const fm_plan_point *point)
+{
+    for (size_t i = 0; i < point->selection->sweep_count; i++)
+        if (point->selection->sweeps[i].key != NULL)
+            made->is_given[point->selection->sweeps[i].key - fm_keys] = true;
+}
+
 /* In the order of the descriptor: two ways to say the same are the same. */
 static void make_choices(fm_case *made, const fm_plan_point *point, const fm_method_desc *method)
 {
@@ -291,6 +298,7 @@ fm_status plan_case_make(fm_case *made, const fm_plan_point *point, fm_error *er
     const fm_status status = make_settings(&made->settings, point, err);
     if (status != FM_OK)
         return status;
+    mark_given(made, point);
     snprintf(made->method, sizeof made->method, "%s", point->entry->id);
     snprintf(made->scene, sizeof made->scene, "%s", point->scene);
     snprintf(made->device, sizeof made->device, "%s", point->device);

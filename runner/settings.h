@@ -170,6 +170,7 @@ typedef struct fm_key {
                          what it was before there was the key */
 } fm_key;
 
+enum { FM_MAX_KEYS = 128 };
 extern const fm_key fm_keys[];
 extern const size_t fm_key_count;
 

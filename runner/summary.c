@@ -122,20 +122,23 @@ static void write_n(fm_text *text, const row_state *row, const summary_column *c
         write_key(text, row, column);
 }
 
-static bool is_told(const fm_key *key, const fm_settings *settings, const fm_settings *defaults,
+/* Layers tell their recipe; frames, whose scene's name says it, only what an axis changed. */
+static bool is_told(const fm_case *measured, size_t index, const fm_settings *defaults,
                     char value[FM_PATH_MAX_BYTES])
 {
     char usual[FM_PATH_MAX_BYTES];
-    const bool is_recipe = key->scope == FM_SCOPE_SCENE &&
-                           (settings->generator == FM_GENERATOR_LAYERS ||
-                            settings->generator == FM_GENERATOR_FRAMES) &&
-                           key_is_read(key, settings->generator);
-    if ((key->scope != FM_SCOPE_CASE && !is_recipe) || summary_has_column(key->name) ||
-        strcmp(key->name, "generator") == 0)
+    const fm_key *key = &fm_keys[index];
+    const fm_generator generator = measured->settings.generator;
+    const bool is_scenes = key->scope == FM_SCOPE_SCENE && key_is_read(key, generator);
+    const bool is_changed =
+        is_scenes && generator == FM_GENERATOR_FRAMES && measured->is_given[index];
+    const bool is_recipe = is_scenes && generator == FM_GENERATOR_LAYERS;
+    if ((key->scope != FM_SCOPE_CASE && !is_recipe && !is_changed) ||
+        summary_has_column(key->name) || strcmp(key->name, "generator") == 0)
         return false;
-    settings_text(value, settings, key);
+    settings_text(value, &measured->settings, key);
     settings_text(usual, defaults, key);
-    return strcmp(value, usual) != 0;
+    return is_changed || strcmp(value, usual) != 0;
 }
 
 /* The method's own options, then whatever else is not as usual and has no column. */
@@ -150,7 +153,7 @@ static void write_options(fm_text *text, const row_state *row, const summary_col
         text_add(&all, "%s%s=%s", all.length > 0 ? " " : "", row->measured->choices[i].name,
                  row->measured->choices[i].value);
     for (size_t i = 0; i < fm_key_count; i++)
-        if (is_told(&fm_keys[i], &row->measured->settings, &defaults, value))
+        if (is_told(row->measured, i, &defaults, value))
             text_add(&all, "%s%s=%s", all.length > 0 ? " " : "", fm_keys[i].name, value);
     csv_add(text, all.bytes != NULL ? all.bytes : "");
     text->failed = text->failed || all.failed;

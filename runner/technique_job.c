@@ -229,11 +229,11 @@ static void take_frame(run_state *run, uint32_t index)
     const uint64_t wrong = check_frame(run, index);
     run->wrong_tiles += wrong;
     run->wrong_frames += wrong > 0;
-    add_sample(run, index, "cycles", all, "");
-    add_sample(run, index, "energy_nj", energy.total, "nJ");
-    add_sample(run, index, "tiles_skipped", (double)counts->tiles_skipped, "");
-    add_sample(run, index, "fragments_shaded", (double)counts->fragments_shaded, "");
-    add_sample(run, index, "wrong_tiles", (double)wrong, "");
+    add_sample(run, index, "frame.cycles", all, "");
+    add_sample(run, index, "frame.energy_nj", energy.total, "nJ");
+    add_sample(run, index, "frame.tiles_skipped", (double)counts->tiles_skipped, "");
+    add_sample(run, index, "frame.fragments_shaded", (double)counts->fragments_shaded, "");
+    add_sample(run, index, "frame.wrong_tiles", (double)wrong, "");
     if (index == 0)
         return;
     counters_add(&run->sum, counts);

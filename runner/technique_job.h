@@ -1,14 +1,16 @@
 /* A launch whose feed is `frames`: a technique runs a whole sequence on the simulated GPU.
  *
- * The result gets (worker.h): image_hash of the last frame; samples of each frame (cycles,
- * energy_nj, tiles_skipped, fragments_shaded, wrong_tiles); and metrics, each the sum over all
- * frames but the first, in which no technique has anything to go by: every counter of
- * device/tbr/counters.h by its name; fragments_generated cycles, cycles.geometry, cycles.raster,
- * cycles.signature_stall, cycles.raster_b (the other form), cycles.STAGE (busy cycles of the raster
- * stages), cycles.VARIANT (device/tbr/models/cycles.h) energy_nj, energy.COMPONENT_nj,
- * energy_corner.NAME_nj (device/tbr/models/energy.h) wrong_tiles, wrong_frames: against the
- * baseline's image, of all frames rmse, psnr_db, max_abs, ssim: of the last frame
- *   simulated_fragments_per_core_s: how fast the simulation was */
+ * The result gets (worker.h) image_hash of the last frame; samples of each frame: frame.cycles,
+ * frame.energy_nj, frame.tiles_skipped, frame.fragments_shaded, frame.wrong_tiles; and metrics.
+ *
+ * Metrics that are sums over all frames but the first, in which no technique has anything to go by:
+ * every counter of device/tbr/counters.h by its name; fragments_generated; cycles, cycles.geometry,
+ * cycles.raster, cycles.signature_stall, cycles.raster_b (the other form), cycles.STAGE (busy
+ * cycles of the raster stages), cycles.VARIANT (models/cycles.h); energy_nj, energy.COMPONENT_nj,
+ * energy_corner.NAME_nj (models/energy.h).
+ *
+ * Metrics against the baseline's image: wrong_tiles and wrong_frames of all frames; rmse, psnr_db,
+ * max_abs and ssim of the last. And how fast the simulation was: simulated_fragments_per_core_s. */
 #ifndef FM_TECHNIQUE_JOB_H
 #define FM_TECHNIQUE_JOB_H
 
