@@ -10,7 +10,7 @@ enum {
     TEXELS = 65536 / FRAMES_SUBPIXELS, /* u, v: a texel to a pixel */
     BATCH = 8,                         /* sprites of a draw call */
     CELL_PX = 64,                      /* of what changes under a panel */
-    BURST = 6,                         /* frames that the camera moves or rests */
+    BURST = 15,                        /* frames that the camera moves or rests */
     SWING = 24,                        /* frames that a mover goes before it turns */
     GRID_MAX = 64,
     ATTRIBUTE_BYTES = 144,
@@ -32,6 +32,7 @@ typedef struct generator {
     fm_settings settings;
     fm_frame_builder builder;
     int32_t width, height;       /* sixteenths */
+    uint32_t field;              /* height that opaque panels leave; 1 at least */
     uint32_t *camera_moves;      /* [frame_count]: frames up to this one in which it moved */
     uint32_t object_count, grid; /* each of grid x grid cells */
     uint32_t *object_order;      /* [object_count]: as drawn */
@@ -105,6 +106,12 @@ static void add_backgrounds(generator *g, uint32_t frame)
     }
 }
 
+/* Opaque panels: a bar at the bottom, of the height that makes their share. */
+static int32_t opaque_top(const generator *g)
+{
+    return g->height - (int32_t)lround(g->height * g->settings.hud * g->settings.hud_opaque);
+}
+
 /* ---- sprites ---- */
 
 static void add_sprite(generator *g, uint32_t index, uint32_t frame)
@@ -112,7 +119,7 @@ static void add_sprite(generator *g, uint32_t index, uint32_t frame)
     const double size = g->settings.object_px * (0.5 + draw_unit(g, STREAM_SPRITE, index, 0)) * SUB;
     const int32_t side = (int32_t)lround(size);
     int32_t x = (int32_t)(draw_number(g, STREAM_SPRITE, index, 1) % (uint32_t)g->width) - side / 2;
-    int32_t y = (int32_t)(draw_number(g, STREAM_SPRITE, index, 2) % (uint32_t)g->height) - side / 2;
+    int32_t y = (int32_t)(draw_number(g, STREAM_SPRITE, index, 2) % g->field) - side / 2;
     const uint32_t motion = draw_number(g, STREAM_SPRITE, index, 3);
     if (draw_unit(g, STREAM_SPRITE, index, 4) < g->settings.moving) {
         x += swing(frame, motion % (2 * SWING), SUB + (int32_t)(motion >> 8 & 15));
@@ -230,12 +237,6 @@ static void add_objects(generator *g, uint32_t frame)
 }
 
 /* ---- panels ---- */
-
-/* Opaque panels: a bar at the bottom, of the height that makes their share. */
-static int32_t opaque_top(const generator *g)
-{
-    return g->height - (int32_t)lround(g->height * g->settings.hud * g->settings.hud_opaque);
-}
 
 static uint32_t count_changes(const generator *g, uint32_t cell, uint32_t frame)
 {
@@ -370,6 +371,7 @@ fm_status frames_generate(fm_sequence **sequence, const fm_settings *settings, f
     g->settings = *settings;
     g->width = (int32_t)settings->width_px * SUB;
     g->height = (int32_t)settings->height_px * SUB;
+    g->field = opaque_top(g) > 0 ? (uint32_t)opaque_top(g) : 1;
     fm_status status = make_camera(g, err);
     if (status == FM_OK)
         status = make_objects(g, err);
