@@ -89,7 +89,7 @@ static int compare_cases(const void *a, const void *b)
     if (order == 0)
         order = strcmp(x->method, y->method);
     if (order == 0)
-        order = strcmp(x->options, y->options);
+        order = strverscmp(x->options, y->options); /* counters=2 before counters=10 */
     if (order == 0)
         order = (x->k > y->k) - (x->k < y->k);
     return order != 0 ? order : (x > y) - (x < y);

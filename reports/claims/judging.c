@@ -92,7 +92,7 @@ void judging_end(fm_verdict *verdict, const judging *to)
     for (size_t i = 0; i < to->points->count; i++)
         few += to->points->points[i].has_few_samples;
     if (few > 0)
-        add(verdict, "%zu with fewer than 5 samples, taken as within 15 %%", few);
+        add(verdict, "%zu of one launch or fewer than 5 samples, taken as within 15 %%", few);
     if (to->note[0] != '\0')
         add(verdict, "%s", to->note);
     if (to->points->missing_count > 0)

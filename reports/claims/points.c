@@ -11,7 +11,8 @@
 #include "workload.h"
 
 enum { SAMPLES_WANTED = 5 };
-static const double few_samples_share = 0.15; /* what timings of one case scatter by */
+/* What timings scatter by from process to process where a processor does the work. */
+static const double few_samples_share = 0.15;
 
 /* ---- values ---- */
 
@@ -42,7 +43,8 @@ static fm_interval measured_value(bool *has_few, const fm_selection *selection,
                                               selection->metrics.names, selection->metrics.count);
     if (samples == 0)
         samples = isnan(result->samples) ? 0 : (size_t)result->samples;
-    if (!is_time(&selection->metrics) || samples >= SAMPLES_WANTED)
+    const bool is_single = result->is_software && result->launches < 2.0;
+    if (!is_time(&selection->metrics) || (samples >= SAMPLES_WANTED && !is_single))
         return value;
     *has_few = true;
     return widened(value);
