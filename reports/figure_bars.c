@@ -7,8 +7,9 @@
 
 /* stacked-bars: a cluster for each x, and one for the cases that do not use it. */
 typedef struct bar_place {
-    double slot;    /* of the next bar, in slots from the left */
-    size_t top_row; /* widest text below a bar, px */
+    double slot;                  /* of the next bar, in slots from the left */
+    size_t top_row;               /* widest text below a bar, px */
+    fm_series *intervals, *paper; /* grouped bars */
 } bar_place;
 
 static const double slot_px = 24;
@@ -54,6 +55,20 @@ static double add_stack(fm_figure_job *at, bar_place *place, const fm_case_row *
     return top;
 }
 
+/* One bar in the colour of the method's family. */
+static double add_single(fm_figure_job *at, const bar_place *place, const fm_case_row *result)
+{
+    const fm_interval value = figure_y(at, result);
+    fm_bar *bar = isfinite(value.median) ? chart_add_bar(at->chart) : NULL;
+    if (bar == NULL)
+        return NAN;
+    *bar = (fm_bar){ .x0 = place->slot + 0.1,
+                     .x1 = place->slot + 0.9,
+                     .y1 = value.median,
+                     .colour = look_family_colour(result->look.family) };
+    return value.median;
+}
+
 static void add_cluster_title(fm_figure_job *at, double from, double to, const char *text)
 {
     fm_label *label = chart_add_label(at->chart);
@@ -66,6 +81,29 @@ static void add_cluster_title(fm_figure_job *at, double from, double to, const c
     snprintf(label->text, sizeof label->text, "%s", text);
 }
 
+static bool is_grouped(const fm_figure_job *at)
+{
+    return at->from->kind == FM_FIGURE_GROUPED_BARS;
+}
+
+/* Over a bar: its interval, and the paper's value as a hollow mark. */
+static void add_marks(fm_figure_job *at, const bar_place *place, const fm_case_row *result,
+                      double x)
+{
+    const fm_interval value = figure_y(at, result);
+    const double middle = place->slot + 0.5;
+    if (!is_grouped(at))
+        return;
+    fm_point *point = &place->intervals->points[place->intervals->point_count++];
+    *point = (fm_point){ .x = middle, .y = value.median, .low = value.low, .high = value.high };
+    const double paper = figure_has_paper(at) ? figure_paper_value(at, result->method, x) : NAN;
+    if (!isfinite(paper))
+        return;
+    point = &place->paper->points[place->paper->point_count++];
+    *point = (fm_point){ .x = middle, .y = paper, .low = NAN, .high = NAN };
+    at->y[at->y_count++] = paper;
+}
+
 /* The bars of all cases at x, or with `level` of those that do not use x. */
 static void add_cluster(fm_figure_job *at, bar_place *place, double x, bool level)
 {
@@ -76,7 +114,9 @@ static void add_cluster(fm_figure_job *at, bar_place *place, double x, bool leve
         if (!result->is_measured || figure_is_level(at, result) != level ||
             (!level && figure_x(at, result) != x))
             continue;
-        at->y[at->y_count++] = add_stack(at, place, result);
+        at->y[at->y_count++] =
+            is_grouped(at) ? add_single(at, place, result) : add_stack(at, place, result);
+        add_marks(at, place, result, x);
         add_upright(at->chart, place, result);
         place->slot += 1.0;
     }
@@ -120,25 +160,75 @@ static bool has_times(const fm_figure_job *at)
     return length > 3 && strcmp(first + length - 3, "_ms") == 0;
 }
 
-fm_status figure_make_bars(fm_figure_job *at, double *xs, fm_error *err)
+static bool open_marks(bar_place *place, fm_figure_job *at)
+{
+    /* Both at once: adding a series may move the ones before. */
+    const bool has_room = chart_add_series(at->chart, at->group->count) != NULL &&
+                          chart_add_series(at->chart, at->group->count) != NULL;
+    if (!has_room)
+        return false;
+    place->intervals = &at->chart->series[at->chart->series_count - 2];
+    place->paper = &at->chart->series[at->chart->series_count - 1];
+    place->paper->has_marker = place->paper->hollow = true;
+    place->paper->marker = FM_MARKER_DIAMOND;
+    return true;
+}
+
+/* The keys of families in use, and bars that stand on the low end of the axis. */
+static void finish_groups(fm_figure_job *at, const bar_place *place)
 {
     fm_chart *chart = at->chart;
+    for (size_t i = 0; i < chart->bar_count; i++)
+        chart->bars[i].y0 = chart->y.low;
+    if (place->paper->point_count > 0)
+        snprintf(place->paper->label, sizeof place->paper->label, "paper");
+    for (int family = 0; family < FM_FAMILY_COUNT; family++) {
+        const fm_colour colour = look_family_colour((fm_family)family);
+        bool is_used = false;
+        for (size_t i = 0; i < chart->bar_count && !is_used; i++)
+            is_used = memcmp(&chart->bars[i].colour, &colour, sizeof colour) == 0;
+        fm_series *key = is_used ? chart_add_series(chart, 0) : NULL;
+        if (key == NULL)
+            continue;
+        key->colour = colour;
+        key->swatch = true;
+        snprintf(key->label, sizeof key->label, "%s", look_family_name((fm_family)family));
+    }
+}
+
+static void fit_axes(fm_figure_job *at, const bar_place *place)
+{
+    fm_chart *chart = at->chart;
+    chart->y.scale = at->from->is_log ? FM_SCALE_LOG : FM_SCALE_LINEAR;
+    axis_fit(&chart->y, at->y, at->y_count);
+    if (is_grouped(at))
+        figure_title_quantity(chart->y.title, &at->from->ys);
+    else
+        snprintf(chart->y.title, sizeof chart->y.title, "%s", has_times(at) ? "time [ms]" : "sum");
+    chart->x.low = 0.0;
+    chart->x.high = place->slot - 0.5;
+    chart->x.length_px = chart->x.high * slot_px;
+    for (size_t i = 0; i < chart->label_count; i++)
+        if (!chart->labels[i].upright)
+            chart->labels[i].y_px = -(double)place->top_row - 28;
+    chart->bottom_px = (int)place->top_row + 44;
+}
+
+fm_status figure_make_bars(fm_figure_job *at, double *xs, fm_error *err)
+{
     bar_place place = { .slot = 0.5 };
-    size_t x_count = figure_distinct_x(xs, at);
+    const size_t x_count = figure_distinct_x(xs, at);
+    if (is_grouped(at) && !open_marks(&place, at))
+        return fm_fail(err, FM_NO_MEMORY, "%s: bars", at->group->title);
     for (size_t i = 0; i < x_count; i++)
         add_cluster(at, &place, xs[i], false);
     add_cluster(at, &place, NAN, true);
     if (at->y_count == 0)
         return fm_fail(err, FM_UNSUPPORTED, "%s: no case was measured", at->group->title);
-    axis_fit(&chart->y, at->y, at->y_count);
-    snprintf(chart->y.title, sizeof chart->y.title, "%s", has_times(at) ? "time [ms]" : "sum");
-    chart->x.low = 0.0;
-    chart->x.high = place.slot - 0.5;
-    chart->x.length_px = chart->x.high * slot_px;
-    for (size_t i = 0; i < chart->label_count; i++)
-        if (!chart->labels[i].upright)
-            chart->labels[i].y_px = -(double)place.top_row - 28;
-    chart->bottom_px = (int)place.top_row + 44;
-    add_part_keys(at);
+    fit_axes(at, &place);
+    if (is_grouped(at))
+        finish_groups(at, &place);
+    else
+        add_part_keys(at);
     return FM_OK;
 }

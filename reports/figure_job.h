@@ -3,6 +3,7 @@
 #define FM_FIGURE_JOB_H
 
 #include "figure_charts.h"
+#include "interval.h"
 
 /* One chart being made. */
 typedef struct fm_figure_job {
@@ -23,6 +24,12 @@ size_t figure_distinct_x(double *xs, const fm_figure_job *at);
 /* x is the scene: a place for each that the figure lists, from 1 on. */
 bool figure_is_by_scene(const fm_figure_job *at);
 double figure_x(const fm_figure_job *at, const fm_case_row *result);
+fm_interval figure_y(const fm_figure_job *at, const fm_case_row *result);
+/* The paper's first value for a method at x, of the group's workload; NAN: none is printed. */
+double figure_paper_value(const fm_figure_job *at, const char *method, double x);
+/* The paper's points are of what the chart shows. */
+bool figure_has_paper(const fm_figure_job *at);
+void figure_title_quantity(char title[128], const fm_name_list *metrics);
 
 /* FM_UNSUPPORTED: nothing to draw. xs: room for one of each case. reference: the same of another
  * machine, drawn thin; its group is NULL where there is none. */

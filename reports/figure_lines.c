@@ -9,7 +9,7 @@
 #include "interval.h"
 #include "text.h"
 
-static fm_interval y_of(const fm_figure_job *at, const fm_case_row *result)
+fm_interval figure_y(const fm_figure_job *at, const fm_case_row *result)
 {
     size_t samples;
     return result_files_interval(&samples, at->results, result, at->from->ys.names,
@@ -31,12 +31,12 @@ static const fm_case_row *base_at(const fm_figure_job *at, double x)
 /* The value to draw at x, as a ratio where the chart wants one; false: none. */
 static bool value_at(fm_point *point, const fm_figure_job *at, const fm_case_row *result, double x)
 {
-    fm_interval y = y_of(at, result);
+    fm_interval y = figure_y(at, result);
     if (at->from->ratio_to != NULL) {
         const fm_case_row *base = base_at(at, x);
         if (base == NULL)
             return false;
-        y = interval_ratio(y, y_of(at, base));
+        y = interval_ratio(y, figure_y(at, base));
         if (base == result)
             y.low = y.high = y.median;
     }
@@ -174,7 +174,7 @@ static bool applies(const fm_figure_job *at, const fm_paper_point *point)
     return true;
 }
 
-static double paper_value(const fm_figure_job *at, const char *method, double x)
+double figure_paper_value(const fm_figure_job *at, const char *method, double x)
 {
     for (size_t i = 0; i < at->figure->point_count; i++) {
         const fm_paper_point *point = &at->figure->points[i];
@@ -227,7 +227,7 @@ static void add_paper_series(fm_figure_job *at, size_t first)
         if (!same_paper_series(from, one))
             break;
         if (at->from->ratio_to != NULL)
-            point.y /= paper_value(at, at->from->ratio_to, from->x);
+            point.y /= figure_paper_value(at, at->from->ratio_to, from->x);
         if (!isfinite(point.y))
             continue;
         series->points[series->point_count++] = point;
@@ -235,11 +235,15 @@ static void add_paper_series(fm_figure_job *at, size_t first)
     }
 }
 
+bool figure_has_paper(const fm_figure_job *at)
+{
+    return at->from->with_paper && at->figure->point_count > 0 &&
+           strcmp(at->figure->points_metric, at->from->y) == 0;
+}
+
 static void add_paper(fm_figure_job *at)
 {
     const fm_paper_figure *figure = at->figure;
-    if (figure->point_count == 0 || strcmp(figure->points_metric, at->from->y) != 0)
-        return;
     for (size_t i = 0; i < figure->point_count; i++) {
         const fm_paper_point *first = &figure->points[i];
         const bool is_base = at->from->ratio_to != NULL &&
@@ -286,13 +290,18 @@ static const char *unit_of(const char *metric)
     return strncmp(metric, "bytes_", 6) == 0 ? "bytes" : "";
 }
 
+void figure_title_quantity(char title[128], const fm_name_list *metrics)
+{
+    quantity_title(title, metrics->names[0], unit_of(metrics->names[0]));
+}
+
 static void title_axes(fm_figure_job *at)
 {
     fm_axis *x = &at->chart->x, *y = &at->chart->y;
     char title[128];
     quantity_title(x->title, at->from->x, "");
     if (at->from->ratio_to == NULL) {
-        quantity_title(y->title, at->from->y, unit_of(at->from->y));
+        figure_title_quantity(y->title, &at->from->ys);
         return;
     }
     const fm_method_info look = paper_look(at, at->from->ratio_to);
@@ -308,7 +317,7 @@ fm_status figure_make_lines(fm_figure_job *at, const fm_figure_job *reference, d
     const size_t x_count = figure_distinct_x(xs, at);
     add_ours(at, xs, x_count);
     const size_t own_values = at->y_count;
-    if (at->from->with_paper)
+    if (figure_has_paper(at))
         add_paper(at);
     const size_t paper_values = at->y_count;
     add_reference(at, reference, xs, x_count);

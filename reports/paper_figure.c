@@ -17,7 +17,7 @@ static const char *const series_keys[] = { "method", "title", "at", "points" };
 
 static fm_status read_chart(fm_figure_chart *chart, const fm_yaml *map, const fm_yaml_place *at)
 {
-    static const char *const kinds[] = { "lines", "stacked-bars" };
+    static const char *const kinds[] = { "lines", "stacked-bars", "grouped-bars" };
     static const char *const scales[] = { "linear", "log" };
     int kind = 0, scale = 0;
     fm_status status = field_check_keys(map, "charts", KEYS(chart_keys), at);
@@ -28,10 +28,10 @@ static fm_status read_chart(fm_figure_chart *chart, const fm_yaml *map, const fm
     if (status == FM_OK)
         status = field_text(&chart->x, map, "x", true, at);
     if (status == FM_OK)
-        status = field_word(&kind, map, "kind", kinds, 2, at);
+        status = field_word(&kind, map, "kind", kinds, 3, at);
     if (status == FM_OK)
         status = field_list(&chart->ys, map, "y", at);
-    if (status == FM_OK && kind == FM_FIGURE_LINES && chart->ys.count == 0)
+    if (status == FM_OK && kind != FM_FIGURE_STACKED_BARS && chart->ys.count == 0)
         return fm_fail(at->err, FM_INVALID, "%s:%u: y is missing", at->path, map->line);
     chart->y = chart->ys.count > 0 ? chart->ys.names[0] : "";
     if (status == FM_OK)

@@ -1,34 +1,42 @@
 /* reports/figures/ID.yml: one figure of a paper as data.
  *
- *   id: kplus-05                   the file's name
+ *   id: kplus-05               the file's name
  *   paper: kplus
  *   title: ...
  *   source: where in the paper, and how its values were read
- *   run:                           what `fragmark reproduce` measures: keys of a spec file, or a
- * list of such blocks methods: [kplus-array, ...] scenes: [layers] feeds: [raster] k: [4, 8] smoke:
- * { n: 32 }               what --smoke changes in each block of `run` large: [blocks] what --large
- * measures too charts:                        in the report's order
- *     - id: time                   part of the file name charts/ID-time-*.svg
- *       kind: lines                or stacked-bars
+ *   run:                       what `fragmark reproduce` measures: keys of a spec file, or a list
+ *                              of such blocks
+ *     methods: [kplus-array, ...]
+ *     scenes: [layers]
+ *     feeds: [raster]
+ *     k: [4, 8]
+ *   smoke: { n: 32 }           what --smoke changes in each block of `run`
+ *   large: [blocks]            what --large measures too
+ *   pictures: true             pictures and heat maps of its cases are kept
+ *   charts:                    in the report's order
+ *     - id: time               part of the file name charts/ID-time-*.svg
+ *       kind: lines            or stacked-bars, or grouped-bars
  *       title: ...
- *       x: k                       a number column of summary.csv, an option, or scene: a place
- *                                  for each scene that the run lists
- *       y: frame_ms                lines: any metric, or a list of which the sum is drawn
- *       parts: [clear_ms, ...]     stacked-bars: metrics, from the bottom up
- *       ratio_to: kplus-array      lines: y over that method's at the same x
- *       with_paper: true           lines: the paper's points, hollow
- *       across: [height_px]        columns that change with x
- *       y_scale: log               or linear, the default
+ *       x: k                   a number column of summary.csv, an option, or scene: a place
+ *                              for each scene that the run lists
+ *       y: frame_ms            lines, grouped-bars: any metric, or a list of which the sum is drawn
+ *       parts: [clear_ms, ...] stacked-bars: metrics, from the bottom up
+ *       ratio_to: kplus-array  lines: y over that method's at the same x
+ *       with_paper: true       lines, grouped-bars: the paper's points, hollow
+ *       across: [height_px]    columns that change with x
+ *       y_scale: log           or linear, the default
  *   paper_points:
- *     metric: fps                  what the points are; frame_ms, the default: a ratio_to takes
- * them too parts: [store_ms, resolve_ms] series:
+ *     metric: fps              what the points are; frame_ms is the default, which ratio_to
+ *                              takes too
+ *     parts: [store_ms, resolve_ms]
+ *     series:
  *       - method: kplus-array
- *         title: Array             as the paper's legend has it
- *         at: { n: 16 }            of which workload, where the figure has several
+ *         title: Array         as the paper's legend has it
+ *         at: { n: 16 }        of which workload, where the figure has several
  *         points: [[4, 3.9, 0.2], ...]   x, then one value a part
- *   claims: ...                    see claims/claim.h
+ *   claims: ...                see claims/claim.h
  *   deviations: [sentences]
- *   table: ...                     memory by formula, see memory_table.h; charts may be missing
+ *   table: ...                 memory by formula, see memory_table.h; charts may be missing
  *
  * Unknown keys are refused with file, line and the nearest known one. */
 #ifndef FM_PAPER_FIGURE_H
@@ -41,7 +49,11 @@
 
 enum { FM_FIGURE_CHARTS = 8, FM_FIGURE_PARTS = 8, FM_FIGURE_POINTS = 256 };
 
-typedef enum fm_figure_kind { FM_FIGURE_LINES, FM_FIGURE_STACKED_BARS } fm_figure_kind;
+typedef enum fm_figure_kind {
+    FM_FIGURE_LINES,
+    FM_FIGURE_STACKED_BARS,
+    FM_FIGURE_GROUPED_BARS,
+} fm_figure_kind;
 
 typedef struct fm_figure_chart {
     const char *id, *title, *x;

@@ -47,8 +47,8 @@
  * apart; the worst of them decides.
  *
  * A verdict is `holds` or `fails` only if the whole 95 % interval agrees, else `unclear`; `not
- * testable here` when there is no point. Times of fewer than five samples, or in software of a single
- * launch, whose drift shows in no sample, count as within 15 % at best. */
+ * testable here` when there is no point. Times of fewer than five samples, or in software of a
+ * single launch, whose drift shows in no sample, count as within 15 % at best. */
 #ifndef FM_CLAIM_H
 #define FM_CLAIM_H
 

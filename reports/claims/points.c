@@ -164,8 +164,11 @@ static bool evaluate(fm_claim_point *point, points_job *job, const fm_selection 
     fm_interval other = { 0 };
     const fm_claim *claim = job->claim;
     point->x = x_of(job, point->result);
-    if (claim->form == FM_CLAIM_IMAGES)
-        return operand(&other, point, job, &claim->over);
+    if (claim->form == FM_CLAIM_IMAGES) {
+        const bool is_paired = operand(&other, point, job, &claim->over);
+        point->has_few_samples = false; /* no time is looked at */
+        return is_paired;
+    }
     point->value = measured_value(&point->has_few_samples, of, job->rows, point->result);
     if (!has_value(job, point->result, &point->value))
         return false;

@@ -1,0 +1,225 @@
+/* Figures drawn from fabricated results: whose cases, which metrics, which marks. */
+#include <sys/wait.h>
+
+#include "chart.h"
+#include "claims_kit.h"
+#include "figure_charts.h"
+#include "group.h"
+
+static const char figure_text[] =
+    "id: f-1\npaper: f\ntitle: t\nrun:\n  - { methods: [a] }\n  - { methods: [b] }\n"
+    "charts:\n"
+    "  - { id: bars, kind: grouped-bars, title: c, x: k, y: fps, y_scale: log, with_paper: true }\n"
+    "  - { id: lines, title: c, x: pixel_density, y: [frame_ms, resolve_ms] }\n"
+    "paper_points:\n  metric: fps\n  parts: [fps]\n  series:\n"
+    "    - { method: a, title: A, at: { pixel_density: 0.25 }, points: [[4, 50], [8, 40]] }\n"
+    "    - { method: a, title: A, at: { pixel_density: 0.75 }, points: [[4, 7]] }\n";
+
+static const fakes usual = { { { ROW("a", 4, 0.25, 10) },
+                               { ROW("a", 8, 0.25, 20) },
+                               { ROW("b", 4, 0.25, 40) },
+                               { ROW("a", 4, 0.75, 30) } } };
+
+/* A directory with results and the figure, both read. */
+typedef struct fixture {
+    char directory[64];
+    fm_result_files *results;
+    fm_paper_figure *figure;
+} fixture;
+
+static void open_fixture(fixture *made, const char *figures_csv)
+{
+    char path[256];
+    fm_error err = { 0 };
+    kit_make_results(made->directory, &usual);
+    kit_write_file(made->directory, "f-1.yml", figure_text);
+    if (figures_csv != NULL)
+        kit_write_file(made->directory, "figures.csv", figures_csv);
+    snprintf(path, sizeof path, "%s/f-1.yml", made->directory);
+    if (paper_figure_read(&made->figure, path, &err) != FM_OK ||
+        result_files_read(&made->results, made->directory, &err) != FM_OK)
+        fail_msg("%s", err.message);
+}
+
+static void close_fixture(fixture *made)
+{
+    paper_figure_close(made->figure);
+    result_files_close(made->results);
+    kit_remove_directory(made->directory);
+}
+
+static size_t count_taken(const fixture *in)
+{
+    const fm_figure_cases cases = figure_cases(in->results, in->figure);
+    size_t count = 0;
+    for (size_t i = 0; i < in->results->count; i++)
+        count += figure_takes_case(&in->results->cases[i], &cases);
+    return count;
+}
+
+static void figures_csv_tells_whose_a_case_is(void **state)
+{
+    (void)state;
+    fixture with;
+    open_fixture(&with, "figure,case_id\nf-1,c0\nf-2,c0\nf-2,c1\nf-1,c3\nf-1,unknown\n");
+    const fm_figure_cases cases = figure_cases(with.results, with.figure);
+    assert_true(figure_takes_case(&with.results->cases[0], &cases));
+    assert_false(figure_takes_case(&with.results->cases[1], &cases));
+    assert_int_equal(count_taken(&with), 2);
+    close_fixture(&with);
+}
+
+static void figure_that_figures_csv_does_not_name_takes_nothing(void **state)
+{
+    (void)state;
+    fixture with;
+    open_fixture(&with, "figure,case_id\nf-2,c0\n");
+    assert_int_equal(count_taken(&with), 0);
+    close_fixture(&with);
+}
+
+static void without_figures_csv_a_figure_of_several_runs_takes_all(void **state)
+{
+    (void)state;
+    fixture with;
+    open_fixture(&with, NULL);
+    assert_int_equal(count_taken(&with), 4);
+    close_fixture(&with);
+}
+
+static void frames_per_second_follow_from_the_time(void **state)
+{
+    (void)state;
+    static const char *const fps[] = { "fps" };
+    static const char *const sum[] = { "frame_ms", "resolve_ms", "count_ms" };
+    fixture with;
+    size_t samples;
+    open_fixture(&with, NULL);
+    const fm_case_row *row = &with.results->cases[0];
+    assert_true(result_files_metric(with.results, row, "fps") == 100.0);
+    const fm_interval rate = result_files_interval(&samples, with.results, row, fps, 1);
+    assert_true(rate.median == 100.0 && rate.low < 100.0 && rate.high > 100.0);
+    const fm_interval total = result_files_interval(&samples, with.results, row, sum, 3);
+    assert_true(fabs(total.median - 11.0) < 1e-9); /* no count pass: nothing is added */
+    assert_int_equal(samples, 6);
+    close_fixture(&with);
+}
+
+static void make_groups(fm_groups *groups, const fixture *in, const fm_figure_chart *chart)
+{
+    const fm_figure_cases cases = figure_cases(in->results, in->figure);
+    const fm_groups_desc desc = { .filter = figure_takes_case,
+                                  .context = &cases,
+                                  .free_columns = figure_free_columns(chart) };
+    assert_int_equal(groups_make(groups, in->results, &desc, NULL), FM_OK);
+}
+
+static void grouped_bars_bear_the_papers_marks_of_their_workload(void **state)
+{
+    (void)state;
+    fixture with;
+    fm_groups groups;
+    fm_chart chart;
+    fm_error err = { 0 };
+    open_fixture(&with, NULL);
+    make_groups(&groups, &with, &with.figure->charts[0]);
+    assert_int_equal(groups.count, 2); /* by pixel density */
+    const fm_figure_source own = { with.results, &groups.groups[0] }, none = { NULL, NULL };
+    assert_int_equal(
+        figure_chart_make(&chart, with.figure, &with.figure->charts[0], &own, &none, &err), FM_OK);
+    assert_int_equal(chart.bar_count, 3);
+    assert_true(chart.bars[0].y0 == chart.y.low && chart.bars[0].y1 == 100.0);
+    assert_int_equal(chart.series[0].point_count, 3); /* intervals */
+    assert_string_equal(chart.series[1].label, "paper");
+    assert_int_equal(chart.series[1].point_count, 2);
+    assert_true(chart.series[1].points[0].y == 50.0 && chart.series[1].points[1].y == 40.0);
+    chart_free(&chart);
+    groups_free(&groups);
+    close_fixture(&with);
+}
+
+static void charts_may_run_along_any_column(void **state)
+{
+    (void)state;
+    fixture with;
+    fm_groups groups;
+    fm_chart chart;
+    fm_error err = { 0 };
+    open_fixture(&with, "figure,case_id\nf-1,c0\nf-1,c3\n");
+    make_groups(&groups, &with, &with.figure->charts[1]);
+    assert_int_equal(groups.count, 1);
+    const fm_figure_source own = { with.results, &groups.groups[0] }, none = { NULL, NULL };
+    assert_int_equal(
+        figure_chart_make(&chart, with.figure, &with.figure->charts[1], &own, &none, &err), FM_OK);
+    assert_int_equal(chart.series[0].point_count, 2);
+    assert_true(chart.series[0].points[0].x == 0.25 && chart.series[0].points[0].y == 11.0);
+    assert_true(chart.series[0].points[1].x == 0.75 && chart.series[0].points[1].y == 31.0);
+    chart_free(&chart);
+    groups_free(&groups);
+    close_fixture(&with);
+}
+
+static void another_machine_draws_thin_curves(void **state)
+{
+    (void)state;
+    fixture with;
+    fm_groups groups;
+    fm_chart chart;
+    fm_error err = { 0 };
+    open_fixture(&with, "figure,case_id\nf-1,c0\nf-1,c3\n");
+    make_groups(&groups, &with, &with.figure->charts[1]);
+    const fm_figure_source own = { with.results, &groups.groups[0] };
+    const fm_figure_source other = {
+        with.results, figure_reference_group(&groups, &groups.groups[0], &with.figure->charts[1])
+    };
+    assert_ptr_equal(other.group, &groups.groups[0]);
+    assert_int_equal(
+        figure_chart_make(&chart, with.figure, &with.figure->charts[1], &own, &other, &err), FM_OK);
+    assert_int_equal(chart.series_count, 2);
+    assert_true(chart.series[1].width_px < 1.0 && !chart.series[1].has_marker);
+    assert_string_equal(chart.series[1].label, "");
+    assert_string_equal(chart.notes[1], "thin: llvmpipe");
+    chart_free(&chart);
+    groups_free(&groups);
+    close_fixture(&with);
+}
+
+/* What fragmark-report exits with when b must take at most `most` times as long as a. */
+static int report_exit(const char *most)
+{
+    char directory[64], text[1024], command[512];
+    kit_make_results(directory, &usual);
+    snprintf(text, sizeof text,
+             "id: f-1\npaper: f\ntitle: t\ncharts:\n  - { id: c, title: c, x: k, y: frame_ms }\n"
+             "claims:\n  - { id: F-1, text: t, required: true, at_most: %s, of: { method: b },"
+             " over: { method: a } }\n",
+             most);
+    kit_write_file(directory, "f-1.yml", text);
+    snprintf(command, sizeof command, "%s %s -r none -f %s/f-1.yml >/dev/null 2>&1",
+             FM_REPORT_PROGRAM, directory, directory);
+    const int status = system(command);
+    kit_remove_directory(directory);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+static void required_claim_that_fails_is_exit_code_1(void **state)
+{
+    (void)state;
+    assert_int_equal(report_exit("8"), 0); /* b takes 4 times as long */
+    assert_int_equal(report_exit("2"), 1);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(figures_csv_tells_whose_a_case_is),
+        cmocka_unit_test(figure_that_figures_csv_does_not_name_takes_nothing),
+        cmocka_unit_test(without_figures_csv_a_figure_of_several_runs_takes_all),
+        cmocka_unit_test(frames_per_second_follow_from_the_time),
+        cmocka_unit_test(grouped_bars_bear_the_papers_marks_of_their_workload),
+        cmocka_unit_test(charts_may_run_along_any_column),
+        cmocka_unit_test(required_claim_that_fails_is_exit_code_1),
+        cmocka_unit_test(another_machine_draws_thin_curves),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
