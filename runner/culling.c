@@ -171,8 +171,10 @@ static void add_resources(fm_method_desc *culled, const fm_method_desc *method,
     fm_resource *added = &culled->resources[count_resources(method)];
     added[0] =
         (fm_resource){ .name = BOUNDARY, .kind = FM_RESOURCE_IMAGE, .format = FM_FORMAT_D32F };
-    added[1] =
-        (fm_resource){ .name = RANGE, .extent = { .per_pixel = 2 }, .used = { .per_pixel = 2 } };
+    added[1] = (fm_resource){ .name = RANGE,
+                              .kind = FM_RESOURCE_IMAGE,
+                              .format = FM_FORMAT_RG32F,
+                              .clear_colour = { -2, -2 } }; /* less than any depth's */
     added[2] = (fm_resource){ .name = MAP,
                               .extent = { .per_pixel = settings->cull_words },
                               .used = { .per_pixel = settings->cull_words },
@@ -194,11 +196,13 @@ static void add_passes(fm_method_desc *culled, const fm_method_desc *method,
     passes[0] = (fm_pass){ .name = PREFIX "clear",
                            .kind = is_shared ? FM_PASS_PIXELS : FM_PASS_CLEAR,
                            .shader = is_shared ? "common/cull_clear.glsl" : NULL,
-                           .writes = { RANGE, MAP } };
-    passes[1] = (fm_pass){ .name = PREFIX "range",
-                           .shader = "common/cull_range.glsl",
-                           .cover = cover_of[settings->cull_range],
-                           .writes = { RANGE } };
+                           .writes = { MAP } };
+    passes[1] = (fm_pass){
+        .name = PREFIX "range",
+        .shader = "common/cull_range.glsl",
+        .cover = cover_of[settings->cull_range],
+        .targets = { { .resource = RANGE, .load = FM_LOAD_CLEAR, .blend = FM_BLEND_MAX } }
+    };
     passes[2] = (fm_pass){ .name = PREFIX "fill",
                            .shader = "common/cull_fill.glsl",
                            .reads = { RANGE },

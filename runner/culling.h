@@ -2,7 +2,7 @@
  * Maps, Eurographics short papers) for any method that keeps the k nearest fragments, without a
  * change to it: a transform of its pass list.
  *
- *   cull-clear   the map's words and the pixels' depth ranges
+ *   cull-clear   the map's words
  *   cull-range   least and greatest depth of a body that holds the scene (section 2; cull_range)
  *   cull-fill    each fragment sets the bit of its bucket: 32 cull_words buckets a pixel
  *   cull-count   per pixel: the far edge of the k-th occupied bucket becomes the depth boundary

@@ -179,7 +179,11 @@ int main(void)
         ON_VULKAN_AND_OSMESA(ascending_order_takes_k_locks_a_pixel),
         ON_VULKAN_AND_OSMESA(descending_order_takes_n_locks_a_pixel),
         ON_VULKAN_AND_OSMESA(what_lies_behind_the_kth_bucket_does_not_arrive),
+        { "what_lies_behind_the_kth_bucket_does_not_arrive [vulkan, validated]",
+          what_lies_behind_the_kth_bucket_does_not_arrive, open_validated, close_opened, NULL },
         ON_VULKAN_AND_OSMESA(tests_in_the_shader_cull_the_same),
+        { "tests_in_the_shader_cull_the_same [vulkan, validated]",
+          tests_in_the_shader_cull_the_same, open_validated, close_opened, NULL },
         ON_VULKAN_AND_OSMESA(a_kth_bucket_that_is_the_last_culls_nothing),
         ON_VULKAN_AND_OSMESA(own_cull_off_takes_a_lock_for_each_arrival),
     };

@@ -1,3 +1,5 @@
+#include "common/cull_map.glsl"
+
 // Occupancy map, section 2: the depth range [near, far] of a pixel in S equal buckets, j = 0 .. S-1,
 //   bucket j holds near + (far - near) j / S <= depth < near + (far - near) (j + 1) / S.
 // What rounding may do: the quotients, products and sums below are each within 2.5 ulp (as Vulkan
@@ -6,22 +8,14 @@
 const uint CULL_BUCKETS = 32u * FM_CULL_WORDS;
 const float CULL_LEAST_WIDTH = 8.673617379884035e-19; // 2^-60: quotients stay finite
 
-// Where a pixel's words of the map lie: the same words of neighbours side by side.
-uint cull_word(uvec2 pixel, uint word)
-{
-    return word * uint(FM_PIXELS) + fm_pixel_index(pixel);
-}
-
-// Near and far; false: no range, and nothing is culled. The range pass keeps the greatest of depth bits and
-// of their complements, from 0. Where only one face of the body is seen, the near plane cut the other
-// away (or the eye is inside, or the body is flat): the range then begins at 0.
+// Near and far; false: no range, and nothing is culled. The range pass keeps the greatest of -depth and of
+// depth. Where only one face of the body is seen, the near plane cut the other away (or the eye is inside,
+// or the body is flat): the range then begins at 0.
 bool cull_range_of(uvec2 pixel, out float near, out float far)
 {
-    uint i = 2u * fm_pixel_index(pixel);
-    near = uintBitsToFloat(~fm_cull_range[i]);
-    far = uintBitsToFloat(fm_cull_range[i + 1u]);
-    if (fm_cull_range[i] == 0u)
-        return false;
+    vec2 greatest = fm_load_fm_cull_range(pixel).xy;
+    near = -greatest.x;
+    far = greatest.y;
     if (!(far - near >= CULL_LEAST_WIDTH))
         near = 0.0;
     return far - near >= CULL_LEAST_WIDTH;
