@@ -180,6 +180,8 @@ static void measure_all(outcomes *seen, drawn_scene *drawn)
         const fm_method_desc *method = kit_method(kit, i);
         const kit_way way = { .method = method->id, .feed = FM_FEED_RASTER, .texts = texts };
         draw_texts(texts, drawn);
+        if ((kit_feeds(method) & FM_FEED_RASTER) == 0)
+            continue;
         if (method->keeps == FM_KEEPS_K_NEAREST && kit_is_right(method, any_ties) &&
             !(any_one && (method->traits & FM_TRAIT_LOSES_DEPTH_ONE) != 0))
             measure_one(seen, drawn, &way, false);
