@@ -20,7 +20,8 @@ fm_status request_write(const char *path, const fm_request *request, fm_error *e
 typedef struct fm_truth_job {
     char name[200];    /* of its files: SCENEHASH-DEVICE[-FEED] */
     size_t of;         /* the first case that needs it */
-    const char *floor; /* path of the floor's plugin; "": all its cases are skipped */
+    const char *floor; /* path of the floor's plugin; "": all its cases are skipped, or frames,
+                          which have none */
 } fm_truth_job;
 
 typedef struct fm_truth_jobs {

@@ -141,7 +141,8 @@ static fm_status add_item(fm_sweep *sweep, const char *item, fm_error *err)
 fm_status sweep_add(fm_sweep *sweep, const char *text, fm_error *err)
 {
     fm_status status = FM_OK;
-    if (sweep->key != NULL && sweep->key->type == FM_KEY_TEXT)
+    if (sweep->key != NULL && sweep->key->type == FM_KEY_TEXT &&
+        sweep->key->scope == FM_SCOPE_SCENE) /* a path: commas are its own */
         return add_value(sweep, text, err);
     char *copy = strdup(text), *rest = copy;
     if (copy == NULL)

@@ -109,11 +109,16 @@ static fm_status open_device(launch_job *job)
     return FM_OK;
 }
 
+static bool has_frames(const launch_job *job)
+{
+    return feed_from_name(text_of(job, "feed")) == FM_FEED_FRAMES;
+}
+
 static fm_status open_plugins(launch_job *job)
 {
     job->failed_in = "plugin";
     fm_status status = plugin_open(&job->method, text_of(job, "plugin"), &job->error);
-    if (status == FM_OK)
+    if (status == FM_OK && !has_frames(job))
         status = plugin_open(&job->floor, text_of(job, "floor"), &job->error);
     job->failed_in = NULL;
     return status;
@@ -202,11 +207,6 @@ static fm_status frames_job(launch_job *job)
         status =
             not_the_plugins(technique_job_run(job->result, &job->wrong_tiles, &desc, &job->error));
     return status;
-}
-
-static bool has_frames(const launch_job *job)
-{
-    return feed_from_name(text_of(job, "feed")) == FM_FEED_FRAMES;
 }
 
 static fm_status truth_job(launch_job *job)
