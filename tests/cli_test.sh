@@ -60,6 +60,8 @@ check spec_error_names_file_and_line 2 "bad.yml:2" "$program" run "$here/bad.yml
 check bad_memory_limit_is_a_usage_error 2 "4G" "$program" run --memory-limit 4X
 check bad_timeout_is_a_usage_error 2 "seconds" "$program" run --timeout 0
 check unknown_figure_names_the_nearest 2 "kplus-05" "$program" reproduce kplus-5
+check claim_names_its_figure 0 "4 ok" "$program" reproduce KP-26 --smoke --device dummy --no-report -o "$here/claim"
+grep -q '^kplus-03,' "$here/claim/figures.csv" || complain "claim_names_its_figure: figures.csv does not"
 check report_needs_a_folder 2 "which DIR" "$program" report
 
 run() { "$program" run --method kplus-array,z-buffer "${small[@]}" -a launches="$1" -o "$here/$2"; }

@@ -109,6 +109,8 @@ typedef struct fm_figure_list {
 } fm_figure_list;
 fm_status figures_list(fm_figure_list *list, fm_error *err);
 void figures_free(fm_figure_list *list);
+/* Whether the figure makes the claim of this id. */
+bool figure_has_claim(const fm_figure *figure, const char *claim);
 /* How much of a figure is measured: its `run`; `smoke` over it; or `large` too, which takes a
  * software rasteriser hours. */
 typedef enum fm_figure_size { FM_FIGURE_FULL, FM_FIGURE_SMOKE, FM_FIGURE_LARGE } fm_figure_size;

@@ -35,6 +35,21 @@ static void read_head(fm_figure *figure)
     yaml_tree_free(root);
 }
 
+bool figure_has_claim(const fm_figure *figure, const char *claim)
+{
+    fm_yaml *root = NULL;
+    fm_error below = { 0 };
+    bool is_found = false;
+    const bool is_read = yaml_tree_read(&root, figure->path, &below) == FM_OK;
+    const fm_yaml *claims = is_read ? yaml_tree_find(root, "claims") : NULL;
+    for (size_t i = 0; claims != NULL && i < claims->count && !is_found; i++) {
+        const fm_yaml *id = yaml_tree_find(&claims->items[i], "id");
+        is_found = id != NULL && id->text != NULL && strcmp(id->text, claim) == 0;
+    }
+    yaml_tree_free(root);
+    return is_found;
+}
+
 static fm_status add_figure(fm_figure_list *list, const char *folder, const char *file,
                             fm_error *err)
 {

@@ -44,24 +44,26 @@ static const struct argp_child children[] = {
 static const struct argp argp = {
     .options = options,
     .parser = parse,
-    .args_doc = "FIGURE|PAPER|all...",
+    .args_doc = "FIGURE|CLAIM|PAPER|all...",
     .doc = "Measures what figures of a paper show, draws them beside the printed values and checks "
            "their claims."
            "\v"
            "Examples:\n"
            "  fragmark reproduce kplus-05 --smoke -o quick\n"
            "  fragmark reproduce kplus            all figures of that paper\n"
+           "  fragmark reproduce KP-3             the figure that this claim is about\n"
            "  fragmark reproduce all --device vulkan:1\n"
            "\n" CLI_EXIT_CODES,
     .children = children,
 };
 
-/* "kplus" names all of kplus-05, kplus-06, ... */
+/* "kplus" names all of kplus-05, kplus-06, ...; KP-3 the figure that claims it. */
 static bool is_meant(const fm_figure *figure, const char *name)
 {
     const size_t length = strlen(name);
     return strcmp(name, "all") == 0 || strcmp(name, figure->id) == 0 ||
-           (strncmp(name, figure->id, length) == 0 && figure->id[length] == '-');
+           (strncmp(name, figure->id, length) == 0 && figure->id[length] == '-') ||
+           figure_has_claim(figure, name);
 }
 
 static fm_status no_figure(const fm_figure_list *list, const char *name, fm_error *err)
