@@ -265,12 +265,14 @@ static fm_status count_invocations(fm_stage *stage, const fm_truth *truth, fm_er
     return FM_OK;
 }
 
-/* The image starts transparent black: a method that emits nothing shows nothing. */
+/* The image starts transparent black, 1 - A being 1: a method that emits nothing shows nothing. */
 static fm_status create_black(fm_stage *stage, uint64_t pixels, fm_error *err)
 {
     float(*black)[4] = calloc(pixels, sizeof *black);
     if (black == NULL)
         return fm_fail(err, FM_NO_MEMORY, "an image of %" PRIu64 " pixels", pixels);
+    for (uint64_t i = 0; i < pixels; i++)
+        black[i][3] = 1.0f;
     fm_status status = create_slot(stage, STAGE_OUTPUT, pixels * sizeof *black, black, false, err);
     free(black);
     return status;

@@ -16,7 +16,7 @@ enum {
     STAGE_LIST,           /* uvec2 (depth bits, colour): captured fragments to replay */
     STAGE_LIST_PIXELS,    /* uint: pixel of each */
     STAGE_LIST_OFFSETS,   /* uint: where each pixel's begin (compute-pixel) */
-    STAGE_OUTPUT,         /* vec4: the image */
+    STAGE_OUTPUT,         /* vec4: the image, with 1 - A for A */
     STAGE_OUTPUT_BACK,    /* vec4: what was emitted from the back */
     STAGE_COUNTERS,       /* uint: lost, culled, locks taken, arrived */
     STAGE_CAPTURE,        /* uvec2 (depth bits, colour): emitted fragments of a band of pixels */

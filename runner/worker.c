@@ -14,9 +14,6 @@
 #include "plugin.h"
 #include "technique_job.h"
 
-/* Largest difference of a timed image from its own captured fragments composited in double. */
-#define SELF_MAX_ABS 1e-6
-
 /* Everything a launch holds. */
 typedef struct launch_job {
     json_t *request, *result;
@@ -179,11 +176,12 @@ static bool is_wrong(launch_job *job)
                 m->check.wrong_pixels);
         return true;
     }
-    if (m->self_max_abs <= SELF_MAX_ABS)
+    const double allowed = measure_image_tolerance(job->truth->n);
+    if (m->self_max_abs <= allowed)
         return false;
     fm_fail(&job->error, FM_OK,
-            "declared exact, but the timed image is %.3g from its own fragments (%.0e is allowed)",
-            m->self_max_abs, SELF_MAX_ABS);
+            "declared exact, but the timed image is %.3g from its own fragments (%.2g is allowed)",
+            m->self_max_abs, allowed);
     return true;
 }
 

@@ -9,10 +9,6 @@
 
 enum { LAYER_SCENES = 200, SCENES = LAYER_SCENES + 1, FAILURES_SHOWN = 20, TRIES = 4 };
 
-/* What a picture may be off for rounding: float compositing of at most 256 layers against double.
- */
-static const double image_tolerance = 2e-6;
-
 #define BUNNY "/usr/share/glmark2/models/bunny.obj"
 
 /* Half of the scenes have about k layers, where methods change what they do; the others rather few
@@ -96,7 +92,8 @@ static void measure_one(char wrong[600], kit_scene *scene, const kit_way *way, b
         snprintf(wrong, 600, "missing %u, extra %u, misordered %u, lost %u in %u pixels",
                  (unsigned)check->missing, (unsigned)check->extra, (unsigned)check->misordered,
                  (unsigned)m.lost, (unsigned)check->wrong_pixels);
-    else if (status == FM_OK && !any_ties && !(m.self_max_abs <= image_tolerance))
+    else if (status == FM_OK && !any_ties &&
+             !(m.self_max_abs <= measure_image_tolerance(scene->truth->n)))
         snprintf(wrong, 600, "the image is %.3g from its fragments", m.self_max_abs);
     else if (status == FM_OK && m.bytes_allocated != m.bytes_predicted)
         snprintf(wrong, 600, "%llu bytes allocated, %llu predicted",

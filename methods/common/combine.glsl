@@ -2,6 +2,6 @@
 void combine(uvec2 pixel)
 {
     uint i = fm_pixel_index(pixel);
-    vec4 front = fm_output[i];
-    fm_output[i] = front + fm_output_back[i] * (1.0 - front.a);
+    vec4 front = fm_output[i], back = fm_output_back[i]; // front.a is 1 - A
+    fm_output[i] = vec4(front.rgb + back.rgb * front.a, front.a * (1.0 - back.a));
 }

@@ -54,20 +54,21 @@ void fm_emit(uvec2 pixel, int rank, float depth, uint colour)
     fm_blended(pixel, c);
 }
 
-// Compositing outlives a pass: a looped method goes on where the last iteration ended.
+// Compositing outlives a pass: a looped method goes on where the last iteration ended. So fm_output keeps
+// 1 - A, too; the host turns it into A when it reads the image.
 void fm_emit_begin(uvec2 pixel)
 {
     bool is_first = FM_EMIT_FIRST != 0 && fm_iteration == 0u;
-    vec4 before = is_first ? vec4(0.0) : fm_output[fm_pixel_index(pixel)];
+    vec4 before = is_first ? vec4(0.0, 0.0, 0.0, 1.0) : fm_output[fm_pixel_index(pixel)];
     fm_front = before.rgb;
-    fm_shows = 1.0 - before.a;
+    fm_shows = before.a;
 #ifdef FM_EMITS_BACK
     fm_back = is_first ? vec4(0.0) : fm_output_back[fm_pixel_index(pixel)];
 #endif
 }
 void fm_emit_end(uvec2 pixel)
 {
-    fm_output[fm_pixel_index(pixel)] = vec4(fm_front, 1.0 - fm_shows);
+    fm_output[fm_pixel_index(pixel)] = vec4(fm_front, fm_shows);
 #ifdef FM_EMITS_BACK
     fm_output_back[fm_pixel_index(pixel)] = fm_back;
 #endif
