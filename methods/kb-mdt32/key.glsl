@@ -9,9 +9,13 @@ const uint EMPTY = 0xFFFFFFFFu;
 #if DEPTH_BITS == DEPTH_BITS_PUBLISHED
 const float NEAR = 0.001, FAR = 50.0, SCALE = 4294967295.0; // its planes unless fitted to the scene
 
+// Every pass must find the same key, so no compiler may round otherwise in one of them: precise. At
+// most 0.02 (2^32 - 1): the conversion to an integer is defined.
 uint key_of(float depth)
 {
-    return uint(max((depth - NEAR) / FAR, 0.0) * SCALE);
+    precise float along = (depth - NEAR) / FAR;
+    precise float scaled = max(along, 0.0) * SCALE;
+    return uint(scaled);
 }
 
 // The first float with this key, if it is one near the inverse; several may share it.
