@@ -32,10 +32,25 @@ static void expect_passes(kit_scene *scene, const expected *e)
     measurement_free(&m);
 }
 
+/* Printed, for the test that is then skipped: its numbers are chance. */
+static bool races_here(const scene_kit *kit, const char *method)
+{
+    const fm_plugin_entry *entry = plugin_list_find(&kit->plugins, method);
+    const bool races = entry != NULL && entry->plugin != NULL &&
+                       kit_races(kit, entry->plugin->method, FM_FEED_RASTER);
+    if (races)
+        print_message("skipped: %s races on %s\n", method, kit->device->caps.name);
+    return races;
+}
+
 static void expect_all(void **state, const expected *cases, size_t count)
 {
     scene_kit kit;
     kit_open(&kit, device_of(state));
+    if (races_here(&kit, cases[0].method)) { /* a table has methods of one kind */
+        kit_close(&kit);
+        skip();
+    }
     for (size_t i = 0; i < count; i++) {
         kit_scene scene;
         kit_scene_open(&scene, &kit, cases[i].scene);
@@ -114,8 +129,12 @@ static void ties_are_lost_at_the_boundary_only(void **state)
 {
     scene_kit kit;
     kit_scene scene;
-    fm_scene *made = kit_quads_create(3, 2, 10);
     kit_open(&kit, device_of(state));
+    if (races_here(&kit, "kb-multipass")) {
+        kit_close(&kit);
+        skip();
+    }
+    fm_scene *made = kit_quads_create(3, 2, 10);
     for (uint32_t i = 0; i < 10; i++)
         kit_quad(made, i, (fm_rect){ 0, 0, 3, 2 }, 0.125f + 0.125f * (float)(i / 2),
                  0x40000001u + i);

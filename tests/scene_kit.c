@@ -50,6 +50,12 @@ bool kit_is_right(const fm_method_desc *method, bool any_ties)
            (!any_ties && (traits & FM_TRAIT_LOSES_TIES) != 0 && (traits & other) == 0);
 }
 
+bool kit_races(const scene_kit *kit, const fm_method_desc *method, uint32_t feed)
+{
+    return (method->traits & FM_TRAIT_RACY) != 0 &&
+           (feed != FM_FEED_RASTER || !kit->device->caps.is_software);
+}
+
 /* Sets keys; what is no key becomes a choice of the method's, if there is room for choices. */
 static void apply(fm_settings *settings, fm_choice *choices, size_t *count, const char *texts)
 {

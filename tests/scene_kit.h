@@ -47,6 +47,10 @@ bool kit_has(const scene_kit *kit, const char *method);
 /* Hands over exactly the wanted fragments: always, or where no two depths of a pixel are equal. */
 bool kit_is_right(const fm_method_desc *method, bool any_ties);
 
+/* Whether fragments of a pixel may damage each other: methods without a lock race on compute feeds,
+ * and on a GPU on every feed. */
+bool kit_races(const scene_kit *kit, const fm_method_desc *method, uint32_t feed);
+
 /* texts: "width_px=5 n=3 ..."; every key of fm_keys; k is 8 unless given. */
 void kit_scene_open(kit_scene *scene, scene_kit *kit, const char *texts);
 /* A scene that the test made by hand: owned from here on. */
