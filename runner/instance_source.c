@@ -145,7 +145,11 @@ static void add_pixel_main(fm_text *text, const fm_pass *pass, bool drawn)
     char name[64];
     glsl_name(name, pass->name);
     if (drawn)
-        text_add(text, "void main()\n{\n    uvec2 pixel = uvec2(gl_FragCoord.xy);\n");
+        text_add(text, "void main()\n{\n"
+                       "#if FM_HELPER_GUARD\n" /* its stores do nothing: what sorts never ends */
+                       "    if (gl_HelperInvocation)\n        return;\n"
+                       "#endif\n"
+                       "    uvec2 pixel = uvec2(gl_FragCoord.xy);\n");
     else
         text_add(
             text,

@@ -23,6 +23,6 @@ const fm_method_desc fm_method = {
           .writes = { "counters" } },
         { .name = "store", .shader = "store.glsl", .writes = { "counters", "fragments" } },
         { .name = "resolve", .kind = FM_PASS_PIXELS, .shader = "resolve.glsl", .emits = true,
-          .reads = { "counters", "fragments" } },
+          .reads = { "counters" }, .writes = { "fragments" } },
     },
 };

@@ -1,12 +1,16 @@
 #include "common/array.glsl"
-#define SORT_CAPACITY N
-#include "common/sort.glsl"
+
+uvec2 fragment_at(uvec2 pixel, uint i)
+{
+    return fragments[array_slot(pixel, i, N)];
+}
+void put_fragment(uvec2 pixel, uint i, uvec2 fragment)
+{
+    fragments[array_slot(pixel, i, N)] = fragment;
+}
+#include "common/resolve_all.glsl"
 
 void resolve(uvec2 pixel)
 {
-    uint count = min(counters[fm_pixel_index(pixel)], N);
-    FM_LOOP for (uint i = 0u; i < count; ++i)
-        sorted[i] = fragments[array_slot(pixel, i, N)];
-    sort_fragments(count);
-    emit_sorted(pixel, count);
+    resolve_all(pixel, min(counters[fm_pixel_index(pixel)], N));
 }

@@ -38,7 +38,7 @@ const fm_method_desc fm_method = {
         { .name = "store", .shader = "store.glsl", .exclusive = true,
           .writes = { "heads", "counters", "allocated", "pages" } },
         { .name = "resolve", .kind = FM_PASS_PIXELS, .shader = "resolve.glsl", .emits = true,
-          .reads = { "heads", "counters", "pages" } },
+          .reads = { "heads", "counters" }, .writes = { "pages" } },
     },
     .bytes = bytes,
 };

@@ -1,15 +1,6 @@
-#include "ab-ll/node.glsl"
-#define SORT_CAPACITY N
-#include "common/sort.glsl"
+#include "ab-ll/resolve_list.glsl"
 
 void resolve(uvec2 pixel)
 {
-    uint link = heads[fm_pixel_index(pixel)];
-    uint count = 0u;
-    FM_LOOP while (link != END_OF_LIST && count < N) {
-        sorted[count++] = uvec2(nodes[link - 1u], nodes[link]);
-        link = nodes[link + 1u];
-    }
-    sort_fragments(count);
-    emit_sorted(pixel, count);
+    resolve_list(pixel, fm_pixel_index(pixel), 0u);
 }

@@ -24,6 +24,6 @@ const fm_method_desc fm_method = {
         { .name = "store", .shader = "store.glsl", .reads = { "addresses" },
           .writes = { "counters", "fragments" } },
         { .name = "resolve", .kind = FM_PASS_PIXELS, .shader = "resolve.glsl", .emits = true,
-          .reads = { "counters", "addresses", "fragments" } },
+          .reads = { "counters", "addresses" }, .writes = { "fragments" } },
     },
 };

@@ -31,7 +31,7 @@ const fm_method_desc fm_method = {
           .reads = { "counters" }, .writes = { "sums", "addresses" } },
         { .name = "store", .shader = "store.glsl", .writes = { "addresses", "fragments" } },
         { .name = "resolve", .kind = FM_PASS_PIXELS, .shader = "resolve.glsl", .emits = true,
-          .reads = { "counters", "addresses", "fragments" } },
+          .reads = { "counters", "addresses" }, .writes = { "fragments" } },
     },
     .loops = { { .first = "sum", .last = "sum", .count = 3 },
                { .first = "spread", .last = "spread", .count = 3 } },

@@ -1,13 +1,15 @@
-#define SORT_CAPACITY N
-#include "common/sort.glsl"
+// The store left the address behind the pixel's last fragment: the i-th counts back from there.
+uvec2 fragment_at(uvec2 pixel, uint i)
+{
+    return fragments[addresses[fm_pixel_index(pixel)] - 1u - i];
+}
+void put_fragment(uvec2 pixel, uint i, uvec2 fragment)
+{
+    fragments[addresses[fm_pixel_index(pixel)] - 1u - i] = fragment;
+}
+#include "common/resolve_all.glsl"
 
-// The store left the address behind the pixel's last fragment.
 void resolve(uvec2 pixel)
 {
-    uint i = fm_pixel_index(pixel);
-    uint count = min(counters[i], N), end = addresses[i];
-    FM_LOOP for (uint back = 0u; back < count; ++back)
-        sorted[back] = fragments[end - 1u - back];
-    sort_fragments(count);
-    emit_sorted(pixel, count);
+    resolve_all(pixel, min(counters[fm_pixel_index(pixel)], N));
 }

@@ -1,14 +1,21 @@
 #include "s-buffer/place.glsl"
-#define SORT_CAPACITY N
-#include "common/sort.glsl"
 
-// The store left the address behind the pixel's last fragment.
+// The store left the address behind the pixel's last fragment: the i-th counts back from there.
+uint place_of(uvec2 pixel, uint i)
+{
+    return bin_place(pixel, addresses[fm_pixel_index(pixel)] - 1u - i);
+}
+uvec2 fragment_at(uvec2 pixel, uint i)
+{
+    return fragments[place_of(pixel, i)];
+}
+void put_fragment(uvec2 pixel, uint i, uvec2 fragment)
+{
+    fragments[place_of(pixel, i)] = fragment;
+}
+#include "common/resolve_all.glsl"
+
 void resolve(uvec2 pixel)
 {
-    uint i = fm_pixel_index(pixel);
-    uint count = min(counters[i], N), end = count > 0u ? addresses[i] : 0u;
-    FM_LOOP for (uint back = 0u; back < count; ++back)
-        sorted[back] = fragments[bin_place(pixel, end - 1u - back)];
-    sort_fragments(count);
-    emit_sorted(pixel, count);
+    resolve_all(pixel, min(counters[fm_pixel_index(pixel)], N));
 }

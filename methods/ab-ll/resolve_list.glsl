@@ -1,0 +1,36 @@
+// A list's fragments in order: copied to a private array and sorted there, as published, or, where that
+// array would be too long, the list itself is sorted. A list is its head's alone.
+#include "ab-ll/node.glsl"
+#include "common/sort_limit.glsl"
+#if SORTS_IN_PLACE
+#include "ab-ll/sort_links.glsl"
+
+// Emits from `rank` on; the rank behind the last.
+uint resolve_list(uvec2 pixel, uint list, uint rank)
+{
+    uint link = sort_links(heads[list]);
+    heads[list] = link; // another band of the check walks the list again
+    FM_LOOP while (link != END_OF_LIST) {
+        fm_emit(pixel, int(rank++), uintBitsToFloat(nodes[link - 1u]), nodes[link]);
+        link = next_of(link);
+    }
+    return rank;
+}
+#else
+#define SORT_CAPACITY N
+#include "common/sort.glsl"
+
+uint resolve_list(uvec2 pixel, uint list, uint rank)
+{
+    uint link = heads[list];
+    uint count = 0u;
+    FM_LOOP while (link != END_OF_LIST && count < N) {
+        sorted[count++] = uvec2(nodes[link - 1u], nodes[link]);
+        link = nodes[link + 1u];
+    }
+    sort_fragments(count);
+    FM_LOOP for (uint i = 0u; i < count; ++i)
+        fm_emit(pixel, int(rank++), uintBitsToFloat(sorted[i].x), sorted[i].y);
+    return rank;
+}
+#endif
