@@ -4,7 +4,7 @@
 
 /* Beyond SORT_PRIVATE_MAX of methods/common/sort_limit.glsl, and no multiple of a page or of two.
  */
-#define DEEP "width_px=7 height_px=5 pixel_density=1 tessellation=1 n=331 "
+#define DEEP "width_px=7 height_px=5 pixel_density=1 tessellation=1 n=701 "
 
 static void expect_exact(kit_scene *scene, const kit_way *way)
 {
