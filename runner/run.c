@@ -307,8 +307,9 @@ static fm_status measure(run_state *run, size_t case_index, uint32_t launch, fm_
     if (status != FM_OK)
         return status;
     settings_text(k, &of->settings, key_find("k"));
-    snprintf(current, sizeof current, "%.32s k=%.8s %.30s %.30s %.20s, launch %u", of->method, k,
-             of->scene, of->device, of->feed, launch);
+    const bool has_k = of->settings.k != 0;
+    snprintf(current, sizeof current, "%.32s%s%.8s %.30s %.30s %.20s, launch %u", of->method,
+             has_k ? " k=" : "", has_k ? k : "", of->scene, of->device, of->feed, launch);
     progress_begin(&run->progress, current);
     const fm_request request = {
         .of = of,

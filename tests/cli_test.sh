@@ -51,6 +51,9 @@ check plan_says_it_estimates 0 "an estimate" "$program" plan --method kplus-arra
 check plan_as_json 0 '"case_id"' "$program" plan --method kplus-array --json
 check unknown_method_names_the_nearest 2 "nearest is 'kplus-array'" \
     "$program" plan --method kplus-aray
+check unknown_device_number_names_those_there_are 2 "there is dummy" \
+    "$program" run --device dummy:77 --method null -o "$here/unknown-device"
+[ -e "$here/unknown-device" ] && complain "unknown_device_number: nothing is run"
 check unknown_axis_names_the_nearest 2 "pixel_density" "$program" plan -a pixel_densty=1
 check bad_value_names_the_range 2 "1..64" "$program" plan -a tessellation=65
 check missing_spec_is_a_spec_error 2 "absent.yml" "$program" plan "$here/absent.yml"

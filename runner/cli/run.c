@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "cli.h"
+#include "device/device.h"
 
 static const struct argp argp = {
     .parser = cli_parse_spec,
@@ -115,6 +116,16 @@ static void tell_continued(const fm_arguments *arguments, const char *directory)
                 directory);
 }
 
+/* A plan may be for another machine; a run is for this one. */
+static fm_status expect_devices(const fm_plan *plan, fm_error *err)
+{
+    fm_status status = FM_OK;
+    for (size_t i = 0; i < plan->count && status == FM_OK; i++)
+        if (i == 0 || strcmp(plan->cases[i].device, plan->cases[i - 1].device) != 0)
+            status = device_expect(plan->cases[i].device, err);
+    return status;
+}
+
 int cli_run_plan(const fm_arguments *arguments, const char *directory, const fm_plan *plan,
                  const fm_plugin_list *plugins, const char *const *figures, const char *command)
 {
@@ -131,6 +142,8 @@ int cli_run_plan(const fm_arguments *arguments, const char *directory, const fm_
         .progress = arguments->quiet ? NULL : arguments->cli->talk,
         .figures = figures,
     };
+    if (expect_devices(plan, &err) != FM_OK)
+        return cli_fail(arguments->cli, &err);
     tell_continued(arguments, directory);
     if (run_cases(&result, plan, plugins, &desc, &err) != FM_OK) {
         const int code = cli_fail(arguments->cli, &err);

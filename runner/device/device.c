@@ -8,6 +8,8 @@
 #include "device/vulkan/vulkan.h"
 #include "text.h"
 
+enum { DEVICE_ENTRIES_MAX = 32 };
+
 const fm_device_ops *const fm_device_table[] = {
     &vulkan_device,
 #ifdef FM_HAS_OSMESA
@@ -64,6 +66,38 @@ const fm_device_ops *device_find(const char *name)
 uint32_t device_feeds(const fm_device_ops *ops)
 {
     return ops->feeds != 0 ? ops->feeds : FM_FEEDS_FRAGMENTS | FM_FEED_TRIANGLES;
+}
+
+bool device_is_selected(size_t index, const char *name, const char *selector)
+{
+    uint64_t wanted = 0;
+    if (selector == NULL || selector[0] == '\0')
+        return true;
+    if (text_to_u64(&wanted, selector))
+        return wanted == index;
+    return strcasestr(name, selector) != NULL;
+}
+
+fm_status device_expect(const char *name, fm_error *err)
+{
+    const fm_device_ops *ops = device_find(name);
+    const char *colon = strchr(name, ':');
+    fm_device_entry entries[DEVICE_ENTRIES_MAX];
+    size_t count = DEVICE_ENTRIES_MAX;
+    fm_text there = { 0 };
+    if (ops == NULL || colon == NULL || ops->list(entries, &count, NULL) != FM_OK || count == 0)
+        return FM_OK;
+    for (size_t i = 0; i < count; i++) {
+        if (device_is_selected(i, entries[i].name, colon + 1)) {
+            text_free(&there);
+            return FM_OK;
+        }
+        text_add(&there, "%s%s '%s'", i > 0 ? ", " : "", entries[i].selector, entries[i].name);
+    }
+    const fm_status status = fm_fail(err, FM_INVALID, "--device %s: no such device; there is %s",
+                                     name, there.failed ? "another" : there.bytes);
+    text_free(&there);
+    return status;
 }
 
 fm_status device_open(fm_device **device, const char *name, const fm_device_desc *desc,

@@ -249,6 +249,12 @@ extern const fm_device_ops *const fm_device_table[];
 
 /* The table of the device that a name such as "vulkan:1" begins with; NULL: none. */
 const fm_device_ops *device_find(const char *name);
+/* Whether the selector of a name ("vulkan:INDEX|PART OF ITS NAME") means this one of a driver's
+ * devices; NULL or empty: any. */
+bool device_is_selected(size_t index, const char *name, const char *selector);
+/* FM_INVALID, naming those there are, if "vulkan:7" is not among the devices of its driver. FM_OK
+ * if it is, and where nothing can be said: no selector, no driver. */
+fm_status device_expect(const char *name, fm_error *err);
 /* What the device takes. */
 uint32_t device_feeds(const fm_device_ops *ops);
 /* Opens "vulkan", "vulkan:1", "vulkan:llvmpipe", "osmesa", "dummy". FM_INVALID: no such device,

@@ -67,12 +67,9 @@ static fm_status list_devices(fm_device_entry *entries, size_t *count, fm_error 
 
 static bool matches(VkPhysicalDevice physical, size_t index, const char *selector)
 {
-    uint64_t wanted = 0;
     VkPhysicalDeviceProperties properties;
-    if (text_to_u64(&wanted, selector))
-        return wanted == index;
     vkGetPhysicalDeviceProperties(physical, &properties);
-    return strcasestr(properties.deviceName, selector) != NULL;
+    return device_is_selected(index, properties.deviceName, selector);
 }
 
 static fm_status fail_choice(fm_error *err, const VkPhysicalDevice *found, size_t count,
@@ -101,7 +98,7 @@ static fm_status choose_device(vulkan *self, const char *selector, fm_error *err
                        "vulkan: no device with Vulkan 1.3; without a GPU: apt-get install "
                        "mesa-vulkan-drivers");
     for (size_t i = 0; i < count; i++) {
-        if (selector == NULL || selector[0] == '\0' || matches(found[i], i, selector)) {
+        if (matches(found[i], i, selector)) {
             self->physical = found[i];
             self->queue_family = vulkan_queue_family(found[i]);
             return FM_OK;
