@@ -18,9 +18,9 @@ const fm_method_desc fm_method = {
     .family = FM_FAMILY_K_PLUS_BUFFER,
     .marker = FM_MARKER_CROSS,
     .options = {
-        { .name = "memory_mib", .values = { "200", "1", "10", "50", "100", "400", "1000", "4000" },
+        { .name = "memory_mib", .values = { "200", "1", "10", "1000" },
           .help = "the most that all of the method's buffers take, in MiB" },
-        { .name = "discard", .values = { "0", "1", "2", "5", "10", "20", "50", "90" },
+        { .name = "discard", .values = { "0", "1", "10", "20", "50", "90" },
           .help = "per cent of all fragments that may be discarded" },
         { .name = "count", .values = { "tessellated", "flat" },
           .help = "the counting pass as all others, or without tessellation (flat layers)" },
