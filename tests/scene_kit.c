@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <unistd.h>
 
 #include "culling.h"
@@ -131,6 +132,11 @@ void kit_scene_close(kit_scene *scene)
     unlink(scene->truth_path);
     if (scene->triangles_path[0] != '\0')
         unlink(scene->triangles_path);
+}
+
+bool kit_wants_all(void)
+{
+    return getenv("FRAGMARK_TEST_ALL") != NULL;
 }
 
 bool kit_has_ties(const fm_truth *truth)

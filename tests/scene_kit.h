@@ -58,6 +58,8 @@ void kit_scene_take(kit_scene *scene, scene_kit *kit, fm_scene *made);
 void kit_scene_close(kit_scene *scene);
 /* What a feed's methods are compared with. */
 const fm_truth *kit_truth(kit_scene *scene, uint32_t feed);
+/* FRAGMARK_TEST_ALL is set: the slow tests, of which the fast ones are a part. */
+bool kit_wants_all(void);
 /* Whether a pixel has two fragments of one depth: which of them comes first is then open. */
 bool kit_has_ties(const fm_truth *truth);
 
