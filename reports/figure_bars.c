@@ -163,10 +163,9 @@ static bool has_times(const fm_figure_job *at)
 static bool open_marks(bar_place *place, fm_figure_job *at)
 {
     /* Both at once: adding a series may move the ones before. */
-    const bool has_room = chart_add_series(at->chart, at->group->count) != NULL &&
-                          chart_add_series(at->chart, at->group->count) != NULL;
-    if (!has_room)
-        return false;
+    for (int i = 0; i < 2; i++)
+        if (chart_add_series(at->chart, at->group->count) == NULL)
+            return false;
     place->intervals = &at->chart->series[at->chart->series_count - 2];
     place->paper = &at->chart->series[at->chart->series_count - 1];
     place->paper->has_marker = place->paper->hollow = true;
@@ -180,7 +179,7 @@ static void finish_groups(fm_figure_job *at, const bar_place *place)
     fm_chart *chart = at->chart;
     for (size_t i = 0; i < chart->bar_count; i++)
         chart->bars[i].y0 = chart->y.low;
-    if (place->paper->point_count > 0)
+    if (place->paper != NULL && place->paper->point_count > 0)
         snprintf(place->paper->label, sizeof place->paper->label, "paper");
     for (int family = 0; family < FM_FAMILY_COUNT; family++) {
         const fm_colour colour = look_family_colour((fm_family)family);

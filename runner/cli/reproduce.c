@@ -107,6 +107,8 @@ typedef struct spec_files {
     fm_names ids, paths;
     fm_names owners; /* of each path: a figure's id */
     const fm_figure_list *list;
+    const bool *is_chosen; /* [list->count] */
+    const char *command;
 } spec_files;
 
 static fm_figure_size size_of(const fm_arguments *arguments)
@@ -138,6 +140,7 @@ static fm_status write_specs(spec_files *specs, const fm_arguments *arguments,
 {
     fm_status status = FM_OK;
     specs->list = list;
+    specs->is_chosen = is_chosen;
     for (size_t i = 0; i < list->count && status == FM_OK; i++)
         if (is_chosen[i])
             status = write_figure(specs, arguments, &list->figures[i], err);
@@ -240,7 +243,7 @@ static fm_status assign_cases(fm_plan *plan, const char *directory, const spec_f
     return status;
 }
 
-static int run_specs(const spec_files *specs, const fm_arguments *arguments, const char *command)
+static int run_specs(const spec_files *specs, const fm_arguments *arguments)
 {
     int code;
     char directory[FM_PATH_MAX_BYTES];
@@ -252,8 +255,8 @@ static int run_specs(const spec_files *specs, const fm_arguments *arguments, con
         assign_cases(&plan, directory, specs, arguments, &plugins, &err) != FM_OK)
         code = cli_fail(arguments->cli, &err);
     else
-        code =
-            cli_run_plan(arguments, directory, &plan, &plugins, names_list(&specs->ids), command);
+        code = cli_run_plan(arguments, directory, &plan, &plugins, names_list(&specs->ids),
+                            specs->command);
     if (code != CLI_USAGE && code != CLI_DAMAGED)
         keep_specs(specs, directory);
     plan_free(&plan);
@@ -303,18 +306,17 @@ static fm_status keep_tables(const fm_text *csv, const fm_memory_verdicts *verdi
 
 /* Tables first, then what has to be measured; *code is for main. */
 static fm_status reproduce(int *code, const spec_files *specs, const fm_arguments *arguments,
-                           const fm_figure_list *list, const bool *is_chosen, const char *command,
                            fm_error *err)
 {
     fm_text csv = { 0 };
     fm_memory_verdicts verdicts = { 0 };
-    fm_status status = make_tables(&csv, &verdicts, arguments, list, is_chosen, err);
+    fm_status status = make_tables(&csv, &verdicts, arguments, specs->list, specs->is_chosen, err);
     if (status == FM_OK && csv.length == 0 && specs->paths.count == 0)
         status = fm_fail(err, FM_INVALID, "none of these figures has anything to run");
     if (status == FM_OK && csv.length > 0)
         status = keep_tables(&csv, &verdicts, arguments, specs->paths.count == 0, err);
     if (status == FM_OK && specs->paths.count > 0)
-        *code = run_specs(specs, arguments, command);
+        *code = run_specs(specs, arguments);
     text_free(&csv);
     return status;
 }
@@ -327,6 +329,7 @@ int cli_reproduce(const fm_cli *cli, int argc, char **argv)
     spec_files specs = { 0 };
     fm_error err = { 0 };
     char *command = cli_command_text(argc, argv);
+    specs.command = command != NULL ? command : "";
     bool *is_chosen = NULL;
     argp_parse(&argp, argc, argv, 0, NULL, &arguments);
     fm_status status = figures_list(&list, &err);
@@ -339,8 +342,7 @@ int cli_reproduce(const fm_cli *cli, int argc, char **argv)
     if (status == FM_OK)
         status = write_specs(&specs, &arguments, &list, is_chosen, &err);
     if (status == FM_OK)
-        status = reproduce(&code, &specs, &arguments, &list, is_chosen,
-                           command != NULL ? command : "", &err);
+        status = reproduce(&code, &specs, &arguments, &err);
     if (status != FM_OK)
         code = cli_fail(cli, &err);
     close_specs(&specs);
