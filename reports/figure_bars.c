@@ -69,6 +69,12 @@ static double add_single(fm_figure_job *at, const bar_place *place, const fm_cas
     return value.median;
 }
 
+static const char *base_name(const char *scene)
+{
+    const char *slash = strrchr(scene, '/');
+    return slash != NULL ? slash + 1 : scene;
+}
+
 static void add_cluster_title(fm_figure_job *at, double from, double to, const char *text)
 {
     fm_label *label = chart_add_label(at->chart);
@@ -76,7 +82,7 @@ static void add_cluster_title(fm_figure_job *at, double from, double to, const c
         return;
     *label = (fm_label){ .x_px = (from + to) / 2 * slot_px,
                          .y_px = 0, /* set when the longest name below the bars is known */
-                         .size_px = 12,
+                         .size_px = figure_is_by_scene(at) ? 9 : 12, /* names are long */
                          .anchor = FM_ANCHOR_MIDDLE };
     snprintf(label->text, sizeof label->text, "%s", text);
 }
@@ -125,7 +131,7 @@ static void add_cluster(fm_figure_job *at, bar_place *place, double x, bool leve
     if (level)
         snprintf(text, sizeof text, "any %.32s", at->from->x);
     else if (figure_is_by_scene(at))
-        snprintf(text, sizeof text, "%.60s", at->figure->scenes.names[(size_t)x - 1]);
+        snprintf(text, sizeof text, "%.60s", base_name(at->figure->scenes.names[(size_t)x - 1]));
     else
         snprintf(text, sizeof text, "%.32s = %.6g", at->from->x, x);
     add_cluster_title(at, from, place->slot, text);

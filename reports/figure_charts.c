@@ -126,8 +126,13 @@ fm_status figure_chart_make(fm_chart *chart, const fm_paper_figure *figure,
         goto out;
     }
     snprintf(chart->title, sizeof chart->title, "%.40s: %.110s", figure->id, from->title);
-    snprintf(chart->subtitle, sizeof chart->subtitle, "%.90s%s%.100s", group->title,
-             group->workload[0] != '\0' ? "; " : "", group->workload);
+    if (figure_is_by_scene(&at))
+        snprintf(chart->subtitle, sizeof chart->subtitle, "%zu scenes, %.90s%s%.90s",
+                 figure->scenes.count, group->cases[0]->device,
+                 group->workload[0] != '\0' ? "; " : "", group->workload);
+    else
+        snprintf(chart->subtitle, sizeof chart->subtitle, "%.90s%s%.100s", group->title,
+                 group->workload[0] != '\0' ? "; " : "", group->workload);
     if (from->kind == FM_FIGURE_LINES)
         status = figure_make_lines(&at, &other, xs, err);
     else
