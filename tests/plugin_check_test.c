@@ -144,7 +144,9 @@ static void plugin_check_rejects_bad_heads(void **state)
     REFUSES(m.traits = 1u << 31, "traits: unknown bits 0x80000000");
     REFUSES(m.traits = FM_TRAIT_EXACT | FM_TRAIT_APPROXIMATE, "exclude each other");
     REFUSES(m.features = 1u << 30, "features");
+    REFUSES(m.features_optional = 1u << 30, "features_optional");
     REFUSES(m.feeds = 1u << 6, "feeds");
+    REFUSES(m.feeds = FM_FEED_TRIANGLES | FM_FEED_RASTER, "feeds: FM_FEED_TRIANGLES stands alone");
     REFUSES(m.keeps = FM_KEEPS_COUNT, "keeps");
     REFUSES(m.k_total = "sorted", "k_total 'sorted': no such total; nearest is 'stored'");
     REFUSES((m.k_total = "stored", m.keeps = FM_KEEPS_ALL), "only with FM_KEEPS_K_NEAREST");
@@ -288,6 +290,10 @@ static void plugin_check_rejects_bad_passes(void **state)
     REFUSES(m.passes[CLEAR].emits = true, "emits");
     REFUSES(m.passes[STORE].emits = true, "emits: a pass of kind scene cannot");
     REFUSES(m.passes[RESOLVE].emits = false, "none emits");
+    REFUSES(m.passes[COUNT].lanes = 2, "lanes: a pass of kind");
+    REFUSES(m.passes[SPREAD].lanes = 3, "lanes: 3: a power of two");
+    REFUSES(m.passes[SPREAD].lanes = 128, "lanes: 128: a power of two, 64 at most");
+    REFUSES(m.feeds = FM_FEED_TRIANGLES, "kind scene: the feed triangles has no fragments");
     REFUSES(m.passes[SPREAD].count_total = NULL, "count_total: needed");
     REFUSES(m.passes[SPREAD].count_total = "store", "nearest is 'stored'");
     REFUSES(m.passes[COUNT].count_total = "stored", "count_total");

@@ -110,7 +110,7 @@ static void soups_are_rasterised_exactly(void **state)
                                       "k=1",
                                       "k=8 structure=sorted-array",
                                       "k=100 used-buckets=1 structure=registers",
-                                      "k=20 window=8" };
+                                      "k=20 window=16" };
     enum { KS = sizeof ks / sizeof ks[0] };
     const uint64_t count = getenv("FRAGMARK_TEST_ALL") != NULL ? SOUPS_ALL : SOUPS_SOME;
     scene_kit kit;

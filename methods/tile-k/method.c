@@ -16,7 +16,7 @@ const fm_method_desc fm_method = {
     .options = {
         { .name = "structure", .values = { "auto", "registers", "sorted-array" },
           .help = "of the window of fragments that are not yet final" },
-        { .name = "window", .values = { "16", "4", "8", "32", "64", "128", "256" },
+        { .name = "window", .values = { "8", "4", "16", "32", "64", "128", "256" },
           .help = "fragments that it holds at most" },
         { .name = "used-buckets", .values = { "32", "1", "4", "8", "16" },
           .help = "of depth in a tile" },

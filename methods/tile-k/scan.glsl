@@ -5,8 +5,7 @@
 //   void take(uvec2 key)         a fragment: (triangle, depth bits)
 //   bool is_short()              a fragment found no room in this round
 //   MAY_RESUME                   whether that can matter
-// Without FM_LOOP_LIMIT the scan ends early or at the list's end; with it (Mesa's software ends all
-// loops of an invocation together, without a word) it may give up, which is_cut tells.
+// The scan ends early, or at the list's end, or gives up, which is_cut tells.
 #include "common/rasterise.glsl"
 #include "tile-k/layout.glsl"
 #include "tile-k/lanes.glsl"
@@ -19,12 +18,17 @@ bool is_short();
 bool is_cut = false;
 uint iterations = 0u; // of all loops of this subgroup
 
+// Mesa's software ends all loops of an invocation together, without a word; a GPU should never hang.
+#if FM_LOOP_LIMIT
+const uint ITERATIONS_MAX = uint(FM_LOOP_LIMIT) - 64u;
+#else
+const uint ITERATIONS_MAX = 1u << 24;
+#endif
+
 // Once an iteration; false: too many.
 bool may_go_on()
 {
-#if FM_LOOP_LIMIT
-    is_cut = is_cut || ++iterations > uint(FM_LOOP_LIMIT) - 64u;
-#endif
+    is_cut = is_cut || ++iterations > ITERATIONS_MAX;
     return !is_cut;
 }
 

@@ -26,6 +26,7 @@ bool comes_before(uvec2 a, uvec2 b) // by depth, then drawing order
 
 uvec2 own_pixel;
 bool is_inside; // the viewport
+bool has_more;  // is not done since the last round
 uint emitted;
 uvec2 resumes; // keys before it were composited in an earlier round
 uvec2 fallen;  // the nearest that found no room in this round
@@ -39,7 +40,7 @@ bool is_final(uvec2 key)
 // Nothing more can enter the window: all fragments to come lie behind one that fell out.
 bool is_full()
 {
-    return !is_inside || emitted == uint(K) || is_final(fallen);
+    return !has_more || emitted == uint(K) || is_final(fallen);
 }
 
 bool is_short()
@@ -66,7 +67,7 @@ void advance(uint bucket)
 
 void take(uvec2 key)
 {
-    if (is_inside && !comes_before(key, resumes) && comes_before(key, fallen)) {
+    if (has_more && !comes_before(key, resumes) && comes_before(key, fallen)) {
         uvec2 out_of_room = window_insert(key);
         if (comes_before(out_of_room, fallen))
             fallen = out_of_room;
@@ -82,13 +83,13 @@ void store(uint tile)
     if (is_inside)
         fm_emit_begin(own_pixel);
     uint first = bins[tile * TILE_WORDS + BUCKETS];
-    bool has_more = true;
+    has_more = is_inside;
     FM_LOOP while (votes(has_more) != 0u && may_go_on()) {
         fallen = NO_KEY;
         window_clear();
         first = scan(tile, first, own_pixel);
         advance(BUCKETS); // all that is left is final
-        has_more = is_inside && emitted < uint(K) && fallen != NO_KEY;
+        has_more = has_more && emitted < uint(K) && fallen != NO_KEY;
     }
     if (is_inside && is_cut)
         fm_lost(own_pixel); // never silent
