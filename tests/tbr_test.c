@@ -87,7 +87,7 @@ static void quad_counts_as_on_paper(void **state)
     /* The diagonal runs through 16 quads, which both triangles touch. */
     assert_int_equal(c->quads_rasterised, 256 + 16);
     assert_int_equal(c->quads_shaded, 256 + 16);
-    assert_int_equal(c->fragment_instructions, 4 * 8 * (256 + 16));
+    assert_int_equal(c->fragment_instructions_run, 4 * 8 * (256 + 16));
     assert_int_equal(c->flush_bytes, 4096);
     frame_builder_free(&builder);
     tbr_destroy(gpu);

@@ -293,7 +293,7 @@ static void count_draw(tbr *gpu, const fm_draw_call *draw, bool is_prepassed)
     count->vertices += draw->vertices * times;
     count->vertex_lines += (bytes + TBR_LINE_BYTES - 1) / TBR_LINE_BYTES * times;
     /* Positions alone take about a third of a vertex shader. */
-    count->vertex_instructions += instructions + (is_prepassed ? instructions / 3 : 0);
+    count->vertex_instructions_run += instructions + (is_prepassed ? instructions / 3 : 0);
     count->primitives += draw->count * times;
 }
 

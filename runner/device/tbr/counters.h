@@ -9,7 +9,7 @@
 #define TBR_COUNTERS(X)                                                                            \
     X(vertices, "")     /* shaded */                                                               \
     X(vertex_lines, "") /* 64-byte lines of the vertex cache */                                    \
-    X(vertex_instructions, "")                                                                     \
+    X(vertex_instructions_run, "")                                                                 \
     X(primitives, "")       /* assembled */                                                        \
     X(pairs, "")            /* primitive, tile: entries of lists */                                \
     X(attribute_bytes, "B") /* of primitives, into the parameter buffer */                         \
@@ -36,8 +36,8 @@
     X(quads_prepassed, "") /* of them, depth only */                                               \
     X(quads_shaded, "")                                                                            \
     X(fragments_shaded, "")                                                                        \
-    X(fragment_instructions, "") /* four lanes of a quad count, used or not */                     \
-    X(texture_bytes16, "B/16")   /* from DRAM */                                                   \
+    X(fragment_instructions_run, "") /* four lanes of a quad count, used or not */                 \
+    X(texture_bytes16, "B/16")       /* from DRAM */                                               \
     X(depth_quad_reads, "")                                                                        \
     X(depth_quad_writes, "")                                                                       \
     X(colour_quad_reads, "")                                                                       \

@@ -168,7 +168,7 @@ static void count_pixels(tile_state *tile, const tbr_entry *entry, const tbr_spa
     const uint64_t passed = count_quads(result->passed);
     count->quads_shaded += shaded;
     count->fragments_shaded += fragments;
-    count->fragment_instructions += 4ull * shaded * draw->fragment_instructions;
+    count->fragment_instructions_run += 4ull * shaded * draw->fragment_instructions;
     count->texture_bytes16 += fragments * draw->texture_bytes16;
     count->depth_quad_writes += of->writes_depth ? passed : 0;
     count->colour_quad_writes += draw->mask != 0 ? passed : 0;

@@ -156,7 +156,7 @@ void cycles_binned(void *context, const tbr_geometry *geometry, const tbr_counte
     double stall = 0;
     of->spilled = cycles_spilled(&of->p[CYCLES_NOMINAL], counters);
     memset(of->tiles, 0, of->tile_count * sizeof *of->tiles);
-    double stages[] = { (double)counters->vertex_lines, (double)counters->vertex_instructions,
+    double stages[] = { (double)counters->vertex_lines, (double)counters->vertex_instructions_run,
                         (double)counters->primitives, memory_cycles(of, counters), 0 };
     for (size_t i = 0; i < CYCLES_VARIANT_COUNT; i++) {
         const bool differs = i == CYCLES_FAST_ACCUMULATE || i == CYCLES_SLOW_ACCUMULATE;

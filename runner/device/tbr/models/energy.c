@@ -76,12 +76,12 @@ energy_result energy_of(const energy_inputs *in, const model_parameters *p)
     energy_result result = { .component = {
                                  [ENERGY_VERTEX] =
                                      (double)c->vertex_lines * line_pj +
-                                     (double)c->vertex_instructions * p->vertex_instruction_pj,
+                                     (double)c->vertex_instructions_run * p->vertex_instruction_pj,
                                  [ENERGY_LISTS] = lists_pj(in, p),
                                  [ENERGY_LAYERS] = layers_pj(in, p),
                                  [ENERGY_RASTERISER] = (double)c->scalar_quads * p->scalar_quad_pj,
                                  [ENERGY_BUFFERS] = buffers_pj(c, p),
-                                 [ENERGY_SHADING] = (double)c->fragment_instructions *
+                                 [ENERGY_SHADING] = (double)c->fragment_instructions_run *
                                                     p->fragment_instructions *
                                                     p->fragment_instruction_pj,
                                  [ENERGY_TEXTURE] = texture_pj(c, p),
