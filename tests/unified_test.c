@@ -35,7 +35,7 @@ static fm_image *image_of(kit_scene *scene, const kit_way *way)
 static void expect_image_of(kit_scene *scene, const fm_image *as, const char *k, const char *what)
 {
     for (size_t i = 0; i < METHOD_COUNT; i++)
-        for (uint32_t feed = FM_FEED_RASTER; feed <= FM_FEED_TRIANGLES; feed <<= 1) {
+        for (uint32_t feed = FM_FEED_RASTER; feed <= FM_FEED_COMPUTE_ADJACENT; feed <<= 1) {
             const kit_way way = { methods[i], feed, k };
             if (plugin_list_find(&scene->kit->plugins, methods[i]) == NULL)
                 continue;
