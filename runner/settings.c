@@ -290,10 +290,18 @@ static bool in_scene_hash(const fm_key *key, fm_generator generator)
            key->offset != offsetof(fm_settings, r);
 }
 
-void settings_scene_hash_of(char hash[17], const fm_settings *settings, uint64_t mesh_digest)
+uint32_t generator_version(fm_generator generator)
+{
+    /* As many as key masks can name. A generator that is not named has version 0. */
+    static const uint32_t versions[32] = { [FM_GENERATOR_LAYERS] = 0 };
+    return versions[generator];
+}
+
+void settings_scene_hash_with(char hash[17], const fm_settings *settings, uint64_t mesh_digest,
+                              uint32_t version)
 {
     char value[FM_PATH_MAX_BYTES];
-    uint64_t mixed = 0;
+    uint64_t mixed = version;
     for (size_t i = 0; i < fm_key_count; i++) {
         const fm_key *key = &fm_keys[i];
         if (!in_scene_hash(key, settings->generator))
@@ -306,6 +314,11 @@ void settings_scene_hash_of(char hash[17], const fm_settings *settings, uint64_t
             mixed = XXH64(value, strlen(value) + 1, mixed);
     }
     snprintf(hash, 17, "%016llx", (unsigned long long)mixed);
+}
+
+void settings_scene_hash_of(char hash[17], const fm_settings *settings, uint64_t mesh_digest)
+{
+    settings_scene_hash_with(hash, settings, mesh_digest, generator_version(settings->generator));
 }
 
 void settings_scene_hash(char hash[17], const fm_settings *settings)

@@ -200,11 +200,18 @@ bool settings_key_matters(const fm_settings *settings, const fm_key *key);
  * mesh scene without a mesh, clip planes out of order. Finished settings, also with k then set to 0
  * (not used), pass again unchanged, so that they can travel as texts. */
 fm_status settings_finish(fm_settings *settings, fm_error *err);
-/* xxhash of all scene keys that this settings' generator uses, as 16 hex digits. Mesh files enter
- * by their content (their name, if they cannot be read); r does not enter, for n does. */
+/* Raise it when the generator's code makes something else of the same settings: the scene's hash
+ * changes with it, so that no truth and no result of before is taken for the new scene's. */
+uint32_t generator_version(fm_generator generator);
+/* xxhash of all scene keys that this settings' generator uses, as 16 hex digits, begun with the
+ * generator's version. Mesh files enter by their content (their name, if they cannot be read); r
+ * does not enter, for n does. */
 void settings_scene_hash(char hash[17], const fm_settings *settings);
 /* The same for a mesh whose digest is known: reads no file. */
 void settings_scene_hash_of(char hash[17], const fm_settings *settings, uint64_t mesh_digest);
+/* The same under another version of the generator. */
+void settings_scene_hash_with(char hash[17], const fm_settings *settings, uint64_t mesh_digest,
+                              uint32_t version);
 /* The digest of a mesh file's content. FM_IO: it cannot be read. */
 fm_status settings_mesh_digest(uint64_t *digest, const char *path, fm_error *err);
 

@@ -221,6 +221,20 @@ static void scene_hash_mixes_only_what_the_generator_reads(void **state)
     assert_string_not_equal(a, b);
 }
 
+static void scene_hash_changes_with_the_generators_version(void **state)
+{
+    (void)state;
+    char a[17], b[17], next[17];
+    fm_settings settings = defaults();
+    set(&settings, "generator", "palace");
+    const uint32_t version = generator_version(settings.generator);
+    settings_scene_hash(a, &settings);
+    settings_scene_hash_with(b, &settings, 0, version);
+    settings_scene_hash_with(next, &settings, 0, version + 1);
+    assert_string_equal(a, b);
+    assert_string_not_equal(a, next);
+}
+
 static void scene_hash_reads_the_mesh_not_its_name(void **state)
 {
     (void)state;
@@ -335,6 +349,7 @@ int main(void)
         cmocka_unit_test(settings_finish_bounds_layers_and_fragments),
         cmocka_unit_test(settings_finish_judges_meshes),
         cmocka_unit_test(scene_hash_mixes_only_what_the_generator_reads),
+        cmocka_unit_test(scene_hash_changes_with_the_generators_version),
         cmocka_unit_test(scene_hash_reads_the_mesh_not_its_name),
         cmocka_unit_test(scene_file_read_sets_keys_over_defaults),
         cmocka_unit_test(scene_file_read_refuses_with_line_and_nearest),
