@@ -133,3 +133,29 @@ judged judge_beside(const char *claim, const fakes *rows, const fakes *reference
         kit_remove_directory(other);
     return made;
 }
+
+fm_verdict_kind kit_judge_memory(const char *memory_rows, const char *claim)
+{
+    char directory[64], csv[512];
+    fm_error err = { 0 };
+    fm_result_files *results = NULL;
+    fm_paper_figure *figure = NULL;
+    fm_claim_results verdicts;
+    const fakes rows = { { { ROW("a", 4, 1, 10) } } };
+    kit_make_results(directory, &rows);
+    snprintf(csv, sizeof csv,
+             "figure,workload,method,title,bytes,mib,printed,difference_mib,verdict,why\n%s",
+             memory_rows);
+    kit_write_file(directory, "memory.csv", csv);
+    assert_int_equal(kit_read_figure(&figure, directory, claim, &err), FM_OK);
+    assert_int_equal(result_files_read(&results, directory, &err), FM_OK);
+    const fm_paper_figure *const figures[] = { figure };
+    const fm_verdicts_desc desc = { results, NULL, figures, 1 };
+    assert_int_equal(verdicts_make(&verdicts, &desc, &err), FM_OK);
+    const fm_verdict_kind kind = verdicts.items[0].verdict.kind;
+    verdicts_free(&verdicts);
+    paper_figure_close(figure);
+    result_files_close(results);
+    kit_remove_directory(directory);
+    return kind;
+}

@@ -54,5 +54,7 @@ fm_status kit_read_figure(fm_paper_figure **figure, const char *directory, const
                           fm_error *err);
 /* Judges the claim on these rows; reference: of another machine, or NULL. */
 judged judge_beside(const char *claim, const fakes *rows, const fakes *reference);
+/* The verdict of a claim on these rows of memory.csv, which come without their head. */
+fm_verdict_kind kit_judge_memory(const char *memory_rows, const char *claim);
 
 #endif

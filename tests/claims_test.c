@@ -357,38 +357,30 @@ static void required_claims_that_fail_are_counted(void **state)
 static void memory_rows_are_claimed_by_formula(void **state)
 {
     (void)state;
-    char directory[64];
-    fm_error err = { 0 };
-    const fakes rows = { { { ROW("a", 4, 1, 10) } } };
-    static const char *const files[] = {
-        "figure,workload,method,title,bytes,mib,printed,difference_mib,verdict,why\n"
-        "f-1,small,a,A,50,1,1,0,exact,\nf-1,small,b,B,100,2,2,0,exact,\n",
-        "figure,workload,method,title,bytes,mib,printed,difference_mib,verdict,why\n"
-        "f-1,small,a,A,150,1,1,0,exact,\nf-1,small,b,B,100,2,2,0,exact,\n",
-    };
-    for (int i = 0; i < 2; i++) {
-        fm_result_files *results = NULL;
-        fm_paper_figure *figure = NULL;
-        fm_claim_results verdicts;
-        kit_make_results(directory, &rows);
-        kit_write_file(directory, "memory.csv", files[i]);
-        assert_int_equal(kit_read_figure(&figure, directory,
-                                         "form: bound\nequals: 0.5\n"
-                                         "of: { table: memory, method: a, metric: bytes }\n"
-                                         "over: { method: b }\n",
-                                         &err),
-                         FM_OK);
-        assert_int_equal(result_files_read(&results, directory, &err), FM_OK);
-        const fm_paper_figure *const figures[] = { figure };
-        const fm_verdicts_desc desc = { results, NULL, figures, 1 };
-        assert_int_equal(verdicts_make(&verdicts, &desc, &err), FM_OK);
-        assert_int_equal(verdicts.items[0].verdict.kind,
-                         i == 0 ? FM_VERDICT_HOLDS : FM_VERDICT_FAILS);
-        verdicts_free(&verdicts);
-        paper_figure_close(figure);
-        result_files_close(results);
-        kit_remove_directory(directory);
-    }
+    const char *claim = "form: bound\nequals: 0.5\n"
+                        "of: { table: memory, method: a, metric: bytes }\n"
+                        "over: { method: b }\n";
+    assert_int_equal(
+        kit_judge_memory("f-1,small,a,A,50,1,1,0,exact,\nf-1,small,b,B,100,2,2,0,exact,\n", claim),
+        FM_VERDICT_HOLDS);
+    assert_int_equal(
+        kit_judge_memory("f-1,small,a,A,150,1,1,0,exact,\nf-1,small,b,B,100,2,2,0,exact,\n", claim),
+        FM_VERDICT_FAILS);
+}
+
+static void memory_rows_are_compared_with_the_least_or_greatest(void **state)
+{
+    (void)state;
+    const char *rows = "f-1,small,a,A,50,1,1,0,exact,\nf-1,small,b,B,100,2,2,0,exact,\n"
+                       "f-1,small,c,C,25,2,2,0,exact,\nf-1,small,d,D,200,2,2,0,exact,\n";
+    assert_int_equal(kit_judge_memory(rows, "form: bound\nequals: 2\n"
+                                            "of: { table: memory, method: a, metric: bytes }\n"
+                                            "over: { method: [b, c, d], take: least }\n"),
+                     FM_VERDICT_HOLDS);
+    assert_int_equal(kit_judge_memory(rows, "form: bound\nequals: 0.25\n"
+                                            "of: { table: memory, method: a, metric: bytes }\n"
+                                            "over: { method: [b, c, d], take: greatest }\n"),
+                     FM_VERDICT_HOLDS);
 }
 
 static void claims_csv_has_the_columns_and_both_of_the_papers_values(void **state)
@@ -484,6 +476,7 @@ int main(void)
         cmocka_unit_test(cases_without_a_result_are_told),
         cmocka_unit_test(required_claims_that_fail_are_counted),
         cmocka_unit_test(memory_rows_are_claimed_by_formula),
+        cmocka_unit_test(memory_rows_are_compared_with_the_least_or_greatest),
         cmocka_unit_test(claims_csv_has_the_columns_and_both_of_the_papers_values),
         cmocka_unit_test(claims_name_the_line_of_a_mistake),
     };

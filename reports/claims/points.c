@@ -108,6 +108,12 @@ static bool is_own_partner(const fm_selection *selection, const fm_case_row *of,
     return name_list_names(&own, "method") || group_same_own_options(of, other, &own);
 }
 
+/* Of several partners the greatest where the selection says so, else the least. */
+static bool is_taken(const fm_selection *selection, double value, double best)
+{
+    return selection->take == FM_TAKE_GREATEST ? value > best : value < best;
+}
+
 /* The row of `selection` for the workload of `of`, and its value; NULL: there is none. */
 static const fm_case_row *find_partner(fm_interval *best, bool *has_few, points_job *job,
                                        const fm_selection *selection, const fm_case_row *of)
@@ -122,9 +128,7 @@ static const fm_case_row *find_partner(fm_interval *best, bool *has_few, points_
         const fm_interval value = measured_value(has_few, selection, job->rows, other);
         if (!has_value(job, other, &value))
             continue;
-        const bool is_better = selection->take == FM_TAKE_GREATEST ? value.median > best->median
-                                                                   : value.median < best->median;
-        if (found == NULL || is_better) {
+        if (found == NULL || is_taken(selection, value.median, best->median)) {
             *best = value;
             found = other;
         }
@@ -238,15 +242,20 @@ static double memory_partner(const fm_selection *selection, const fm_claim_rows 
 {
     const size_t workload = table_column(rows->memory, "workload");
     const fm_name_list own = own_columns(selection);
+    double found = NAN;
     if (own.count == 0)
         return memory_value(selection, rows, row);
-    for (size_t i = 0; i < rows->memory->row_count; i++)
-        if (match_memory_row(selection, rows, i) &&
-            (name_list_names(&own, "workload") ||
+    for (size_t i = 0; i < rows->memory->row_count; i++) {
+        if (!match_memory_row(selection, rows, i) ||
+            (!name_list_names(&own, "workload") &&
              strcmp(table_cell(rows->memory, i, workload),
-                    table_cell(rows->memory, row, workload)) == 0))
-            return memory_value(selection, rows, i);
-    return NAN;
+                    table_cell(rows->memory, row, workload)) != 0))
+            continue;
+        const double value = memory_value(selection, rows, i);
+        if (isnan(found) || is_taken(selection, value, found))
+            found = value;
+    }
+    return found;
 }
 
 static void add_memory_points(points_job *job, size_t selection)
