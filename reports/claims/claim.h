@@ -19,6 +19,7 @@
  * A selection (`of`, `minus`, `over`) says which rows and which number of each:
  *   metric   column of summary.csv or metric of samples.csv; a list is summed. Default frame_ms
  *   take     each (default), least or greatest: of the rows that differ in method and options only
+ *            (of `minus` and `over` there is one: the greatest if so, else the least)
  *   formula  { constant, per_pixel, per_pixel_k, per_pixel_n, per_fragment }: no row, but bytes
  *            worked out for the row of `of`
  *   table    summary (default) or memory: memory.csv, with its columns
