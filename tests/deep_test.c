@@ -31,9 +31,12 @@ static void a_buffers_sort_any_number_of_fragments(void **state)
         DEEP "order=descending fragment_probability=0.9 alpha=0.01",
         DEEP "order=random depths=coplanar alpha=0.01",
         DEEP "order=ascending alpha=0.01",
+        DEEP "order=random alpha=0.01",
     };
     static const uint32_t feeds[] = { FM_FEED_RASTER, FM_FEED_COMPUTE_ADJACENT,
-                                      FM_FEED_COMPUTE_LAYER };
+                                      FM_FEED_COMPUTE_LAYER, FM_FEED_TRIANGLES };
+    _Static_assert(sizeof scenes / sizeof scenes[0] == sizeof feeds / sizeof feeds[0],
+                   "a feed for each scene");
     scene_kit kit;
     kit_open(&kit, device_of(state));
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {

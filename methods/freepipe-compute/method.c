@@ -27,7 +27,7 @@ const fm_method_desc fm_method = {
         { .name = "store", .kind = FM_PASS_TRIANGLES, .shader = "store.glsl",
           .writes = { "counters", "fragments", "unfinished" } },
         { .name = "resolve", .kind = FM_PASS_PIXELS, .shader = "resolve.glsl",
-          .reads = { "counters", "fragments" }, .emits = true },
+          .reads = { "counters" }, .writes = { "fragments" }, .emits = true },
     },
     .loops = { { .first = "begin", .last = "store", .until_zero = "unfinished" } },
 };
