@@ -119,7 +119,7 @@ static bool can_test_early(const fm_method_desc *method, const fm_pass *pass, ui
 
 static void test_pass(fm_pass *pass, const fm_method_desc *method, const fm_settings *settings)
 {
-    if (pass->kind != FM_PASS_SCENE)
+    if (pass->kind != FM_PASS_SCENE || pass->cover != FM_COVER_NONE)
         return;
     if (settings->cull_test == FM_CULL_TEST_SHADER || !can_test_early(method, pass, settings->k)) {
         pass->reads[count_accesses(pass->reads)] = BOUNDARY;

@@ -8,7 +8,8 @@
  *   cull-count   per pixel: the far edge of the k-th occupied bucket becomes the depth boundary
  *   ...          the method's own passes; its scene passes test against the boundary, by the depth
  *                test before the shader, or in the shader where a pass owns depth, stencil or
- *                several samples (or cull_test=shader)
+ *                several samples (or cull_test=shader); passes over a cover do not: what they draw
+ *                are no fragments of the scene
  *
  * That the k nearest always pass (Lemma 2.1) depends on the body in nothing: a fragment outside its
  * range counts for the first or the last bucket, and a k-th bit in the last bucket, no range, or

@@ -33,7 +33,8 @@ static fm_method_desc make_method(void)
                       .shader = "peel.glsl",
                       .reads = { "counters" },
                       .state = { .depth_stencil = "depth", .depth_test = FM_COMPARE_LESS } },
-                    { .name = "resolve", .kind = FM_PASS_PIXELS, .shader = "resolve.glsl" } },
+                    { .name = "resolve", .kind = FM_PASS_PIXELS, .shader = "resolve.glsl" },
+                    { .name = "bounds", .shader = "bounds.glsl", .cover = FM_COVER_HULL } },
     };
 }
 
@@ -74,9 +75,9 @@ static void without_culling_the_method_is_as_it_was(void **state)
 static void the_map_is_made_before_the_method_begins(void **state)
 {
     (void)state;
-    static const char *const names[] = { "cull-clear", "cull-range", "cull-fill",
-                                         "cull-count", "clear",      "store",
-                                         "route",      "peel",       "resolve" };
+    static const char *const names[] = { "cull-clear", "cull-range", "cull-fill", "cull-count",
+                                         "clear",      "store",      "route",     "peel",
+                                         "resolve",    "bounds" };
     const fm_method_desc culled = applied(NULL);
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         assert_string_equal(culled.passes[i].name, names[i]);
@@ -122,6 +123,16 @@ static void the_map_lies_in_the_largest_buffer_if_asked(void **state)
     assert_int_equal(shared.passes[0].kind, FM_PASS_PIXELS); /* clears its part alone */
 }
 
+/* A hull's back faces lie behind the boundary, and are no fragments. */
+static void passes_over_a_cover_are_left_alone(void **state)
+{
+    (void)state;
+    const fm_pass early = applied(NULL).passes[9];
+    assert_null(early.state.depth_stencil);
+    assert_null(early.reads[0]);
+    assert_null(applied(TEXTS("cull_test", "shader")).passes[9].reads[0]);
+}
+
 static void refuses(const fm_method_desc *method, const char *const *texts, uint32_t feed,
                     const char *message)
 {
@@ -162,6 +173,7 @@ int main(void)
         cmocka_unit_test(the_map_is_made_before_the_method_begins),
         cmocka_unit_test(passes_without_depth_test_before_the_shader),
         cmocka_unit_test(passes_that_own_depth_or_samples_test_in_the_shader),
+        cmocka_unit_test(passes_over_a_cover_are_left_alone),
         cmocka_unit_test(the_map_lies_in_the_largest_buffer_if_asked),
         cmocka_unit_test(what_cannot_be_culled_is_refused_with_the_reason),
     };
