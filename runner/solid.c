@@ -268,11 +268,11 @@ static size_t file_bytes(const solid_header *header)
 static bool is_sound(const char *bytes, size_t count, const solid_header *header,
                      const fm_scene *scene)
 {
-    const char *indices = bytes + sizeof *header + (size_t)header->vertices * sizeof(fm_vertex);
     if (memcmp(header->magic, magic, sizeof magic) != 0 ||
         header->mesh_vertices != scene->vertex_count || count != file_bytes(header) ||
         header->indices % 3 != 0)
         return false;
+    const char *indices = bytes + sizeof *header + (size_t)header->vertices * sizeof(fm_vertex);
     for (uint32_t i = 0; i < header->indices; i++) {
         uint32_t index;
         memcpy(&index, indices + i * sizeof index, sizeof index);

@@ -137,7 +137,7 @@ static void a_hull_is_kept_in_a_file_that_is_checked(void **state)
         put(&vertices[i], (float)(i & 1), (float)(i >> 1 & 1), (float)(i >> 2));
     fm_scene scene = mesh_of(vertices, 8);
     fm_solid hull, read;
-    const uint32_t wrong_index = 8;
+    const uint32_t wrong_index = 8, too_many = UINT32_MAX;
     close(mkstemp(path));
     assert_int_equal(solid_hull(&hull, &scene, NULL), FM_OK);
     assert_int_equal(solid_write(&hull, path, &scene, NULL), FM_OK);
@@ -150,6 +150,8 @@ static void a_hull_is_kept_in_a_file_that_is_checked(void **state)
     assert_int_equal(solid_read(&read, path, &scene, NULL), FM_INVALID);
     scene.vertex_count = 8;
     write_at(path, 24 + 8 * 16, &wrong_index, sizeof wrong_index);
+    assert_int_equal(solid_read(&read, path, &scene, NULL), FM_INVALID);
+    write_at(path, 12, &too_many, sizeof too_many); /* vertices */
     assert_int_equal(solid_read(&read, path, &scene, NULL), FM_INVALID);
     assert_int_equal(truncate(path, 20), 0);
     assert_int_equal(solid_read(&read, path, &scene, NULL), FM_INVALID);
