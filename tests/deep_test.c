@@ -53,6 +53,21 @@ static void a_buffers_sort_any_number_of_fragments(void **state)
     kit_close(&kit);
 }
 
+/* Within the iterations that Mesa's software rasterisers allow an invocation. */
+static void three_thousand_fragments_are_sorted_where_they_lie(void **state)
+{
+    static const char *const methods[] = { "ab-array", "ab-ll-paged" };
+    scene_kit kit;
+    kit_scene scene;
+    kit_open(&kit, device_of(state));
+    kit_scene_open(&scene, &kit,
+                   "width_px=2 height_px=1 pixel_density=1 tessellation=1 n=3000 alpha=0.005");
+    for (size_t i = 0; i < sizeof methods / sizeof methods[0]; i++)
+        expect_exact(&scene, &(kit_way){ methods[i], FM_FEED_RASTER, "" });
+    kit_scene_close(&scene);
+    kit_close(&kit);
+}
+
 /* Were A kept between passes and not 1 - A, what shows would never
  * fall below an ulp of 1, and each of the layers behind would still add to the picture. */
 static void layers_behind_an_opaque_picture_add_nothing(void **state)
@@ -71,6 +86,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         ON_VULKAN_AND_OSMESA(a_buffers_sort_any_number_of_fragments),
+        ON_VULKAN_AND_OSMESA(three_thousand_fragments_are_sorted_where_they_lie),
         ON_VULKAN_AND_OSMESA(layers_behind_an_opaque_picture_add_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

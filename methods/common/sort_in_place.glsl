@@ -1,5 +1,7 @@
 // Heap sort where a pixel's fragments lie: any number of them, no memory but theirs, n log n in any order.
-// An invocation has its pixel for itself. The method defines, before it includes this, where the i-th is:
+// An invocation has its pixel for itself. Mesa's software ends an invocation's loops after 65 535 iterations:
+// there 4500 fragments in random order come out, of 5120 most do not, and the check tells it.
+// The method defines, before it includes this, where the i-th is:
 //   uvec2 fragment_at(uvec2 pixel, uint i)
 //   void put_fragment(uvec2 pixel, uint i, uvec2 fragment)
 void sift_down(uvec2 pixel, uint root, uint end)
