@@ -15,8 +15,9 @@ void main()
     is_alive = is_alive && !gl_HelperInvocation;
 #endif
 #if FM_CULL_IN_SHADER
-    // Before stencil and blending, as the depth test does it for passes that can have one. Less or equal.
-    is_alive = is_alive && depth <= fm_load_fm_cull_boundary(pixel).x;
+    // Before stencil and blending, as the depth test does it for passes that can have one. Less or equal;
+    // interpolation may round a depth beyond 1, and a boundary of 1 culls nothing.
+    is_alive = is_alive && min(depth, 1.0) <= fm_load_fm_cull_boundary(pixel).x;
 #endif
 #if FM_TARGETS
     if (!is_alive)
