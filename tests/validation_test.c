@@ -87,7 +87,7 @@ static void an_undeclared_read_is_a_shader_error(void **state)
     kit_scene scene;
     kit_open(&kit, validated_of(state));
     kit_scene_open(&scene, &kit, LAYERS);
-    const fm_plugin *plugin = plugin_list_find(&kit.plugins, "ab-array")->plugin;
+    const fm_plugin *plugin = plugin_list_find(&kit.plugins, "kb-ab-array")->plugin;
     fm_method_desc method = *plugin->method;
     assert_string_equal(method.passes[2].reads[1], "fragments");
     method.passes[2].reads[1] = NULL;
@@ -101,7 +101,7 @@ static void an_undeclared_read_is_a_shader_error(void **state)
                                     .folders = { plugin->folder, kit.plugins.common_folder },
                                     .settings = &scene.scene->settings };
     assert_int_equal(instance_create(&instance, &desc, &err), FM_SHADER);
-    assert_non_null(strstr(err.message, "ab-array: pass 'resolve'"));
+    assert_non_null(strstr(err.message, "kb-ab-array: pass 'resolve'"));
     assert_non_null(strstr(err.message, "fragments"));
     stage_destroy(stage);
     kit_scene_close(&scene);
