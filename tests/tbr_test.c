@@ -23,10 +23,12 @@ static void draw(tbr *gpu, const fm_frame_builder *builder)
         fail_msg("%s", err.message);
 }
 
-static tbr *gpu_with(const char *words, uint32_t width_px, uint32_t height_px)
+/* The technique is closed after the GPU that runs its hooks. */
+static tbr *gpu_with(kit_technique *technique, const char *words, uint32_t width_px,
+                     uint32_t height_px)
 {
-    kit_technique technique = kit_technique_open(words);
-    return kit_gpu(&technique, width_px, height_px); /* the plugin stays open with its hooks */
+    *technique = kit_technique_open(words);
+    return kit_gpu(technique, width_px, height_px);
 }
 
 static void add_rectangle(fm_frame_builder *builder, fm_draw_call of, const int32_t px[4],
@@ -69,7 +71,8 @@ static void crc_combined_is_the_crc_of_the_whole_at_any_split(void **state)
 static void quad_counts_as_on_paper(void **state)
 {
     (void)state;
-    tbr *gpu = gpu_with("tbr-base", 32, 32);
+    kit_technique held;
+    tbr *gpu = gpu_with(&held, "tbr-base", 32, 32);
     fm_frame_builder builder = { 0 };
     frame_builder_clear(&builder);
     add_rectangle(&builder, kit_woz(), (const int32_t[4]){ 0, 0, 32, 32 }, 5);
@@ -91,12 +94,14 @@ static void quad_counts_as_on_paper(void **state)
     assert_int_equal(c->flush_bytes, 4096);
     frame_builder_free(&builder);
     tbr_destroy(gpu);
+    kit_technique_close(&held);
 }
 
 static void early_depth_test_shades_only_what_is_nearer(void **state)
 {
     (void)state;
-    tbr *gpu = gpu_with("tbr-base", 16, 16);
+    kit_technique held;
+    tbr *gpu = gpu_with(&held, "tbr-base", 16, 16);
     fm_frame_builder builder = { 0 };
     const int32_t whole[4] = { 0, 0, 16, 16 }, half[4] = { 0, 0, 8, 16 };
     frame_builder_clear(&builder);
@@ -107,6 +112,7 @@ static void early_depth_test_shades_only_what_is_nearer(void **state)
     assert_int_equal(tbr_counts(gpu)->fragments_shaded, 128 + 128);
     frame_builder_free(&builder);
     tbr_destroy(gpu);
+    kit_technique_close(&held);
 }
 
 /* Quads in random order: the mean number shaded at a pixel is 1 + 1/2 + ... + 1/d; reordered, from
@@ -119,7 +125,8 @@ static void random_order_shades_the_harmonic_number(void **state)
     fm_frame_builder builder = { 0 };
     for (int trial = 0; trial < TRIALS; trial++) {
         uint32_t order[DEPTH] = { 1, 2, 3, 4 };
-        tbr *base = gpu_with("tbr-base", 2, 2), *reorder = NULL;
+        kit_technique flat, sorted = { 0 };
+        tbr *base = gpu_with(&flat, "tbr-base", 2, 2), *reorder = NULL;
         for (uint32_t i = DEPTH; i > 1; i--) {
             const uint32_t k = random_below(&random, i), kept = order[i - 1];
             order[i - 1] = order[k];
@@ -131,13 +138,15 @@ static void random_order_shades_the_harmonic_number(void **state)
         draw(base, &builder);
         base_sum += tbr_counts(base)->fragments_shaded;
         tbr_destroy(base);
-        reorder = trial % 100 == 0 ? gpu_with("tbr-evr-reorder", 2, 2) : NULL;
+        kit_technique_close(&flat);
+        reorder = trial % 100 == 0 ? gpu_with(&sorted, "tbr-evr-reorder", 2, 2) : NULL;
         for (int frame = 0; reorder != NULL && frame < 3; frame++) {
             draw(reorder, &builder);
             if (frame > 0)
                 assert_int_equal(tbr_counts(reorder)->fragments_shaded, 4);
         }
         tbr_destroy(reorder);
+        kit_technique_close(&sorted);
     }
     const double mean = (double)base_sum / (4.0 * TRIALS);
     assert_true(fabs(mean - 25.0 / 12.0) < 0.05); /* five standard errors */
@@ -152,7 +161,8 @@ static void static_scenes_are_skipped_from_the_third_frame_on(void **state)
     for (size_t i = 0; i < 2; i++)
         for (uint32_t seed = 0; seed < 20; seed++) {
             kit_random(&sequence, seed, KIT_NWOZ | KIT_STATIC);
-            tbr *gpu = gpu_with(skippers[i], sequence.width_px, sequence.height_px);
+            kit_technique held;
+            tbr *gpu = gpu_with(&held, skippers[i], sequence.width_px, sequence.height_px);
             for (uint32_t frame = 0; frame < sequence.count; frame++)
                 draw(gpu, &sequence.frames[frame]);
             assert_int_equal(tbr_counts(gpu)->tiles_skipped, tbr_tile_count(gpu));
@@ -160,6 +170,7 @@ static void static_scenes_are_skipped_from_the_third_frame_on(void **state)
             assert_int_equal(tbr_counts(gpu)->flush_bytes, 0);
             assert_int_equal(tbr_counts(gpu)->signature_compares, tbr_tile_count(gpu));
             tbr_destroy(gpu);
+            kit_technique_close(&held);
         }
     kit_sequence_free(&sequence);
 }
@@ -172,8 +183,9 @@ static void parts_that_nobody_needs_do_not_run(void **state)
     kit_sequence woz = { 0 }, mixed = { 0 };
     kit_random(&woz, 3, 0);
     kit_random(&mixed, 4, KIT_NWOZ);
-    tbr *base = gpu_with("tbr-base", mixed.width_px, mixed.height_px);
-    tbr *evr = gpu_with("tbr-evr", woz.width_px, woz.height_px);
+    kit_technique plain, hiding;
+    tbr *base = gpu_with(&plain, "tbr-base", mixed.width_px, mixed.height_px);
+    tbr *evr = gpu_with(&hiding, "tbr-evr", woz.width_px, woz.height_px);
     draw(base, &mixed.frames[0]);
     draw(evr, &woz.frames[0]);
     const tbr_counters *b = tbr_counts(base), *e = tbr_counts(evr);
@@ -184,6 +196,8 @@ static void parts_that_nobody_needs_do_not_run(void **state)
     assert_true(e->fvp_reads > 0 && e->signed_pairs > 0 && e->visibility_scans > 0);
     tbr_destroy(base);
     tbr_destroy(evr);
+    kit_technique_close(&plain);
+    kit_technique_close(&hiding);
     kit_sequence_free(&woz);
     kit_sequence_free(&mixed);
 }
