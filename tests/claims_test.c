@@ -73,10 +73,16 @@ static void monotone_forbids_steps_back(void **state)
 {
     (void)state;
     const fakes falling = two_methods(12, 20, 30), bent = two_methods(12, 30, 30);
+    const fakes level = two_methods(12, 24, 48), back = two_methods(12, 26, 50);
     expect_with("form: monotone\nalong: k\ngoes: falls", ratio_of_b_to_a, &falling,
                 FM_VERDICT_HOLDS);
     expect_with("form: monotone\nalong: k\ngoes: falls", ratio_of_b_to_a, &bent, FM_VERDICT_FAILS);
     expect_with("form: monotone\nalong: k\ngoes: rises", ratio_of_b_to_a, &falling,
+                FM_VERDICT_FAILS);
+    /* A tolerance forgives steps, not a curve that goes nowhere, or back. */
+    expect_with("form: monotone\nalong: k\ngoes: falls\ntolerance: 0.1", ratio_of_b_to_a, &level,
+                FM_VERDICT_UNCLEAR);
+    expect_with("form: monotone\nalong: k\ngoes: falls\ntolerance: 0.1", ratio_of_b_to_a, &back,
                 FM_VERDICT_FAILS);
 }
 

@@ -37,7 +37,8 @@
  *   mean      the arithmetic mean of all points is
  *   order     of: a list of selections; at each workload each is not above the next, but by the
  *             tolerance
- *   monotone  along, goes (rises or falls): no step goes back by more than the tolerance
+ *   monotone  along, goes (rises or falls): no step goes back by more than the tolerance, and the
+ *             last point lies beyond the first
  *   crossing  along, between, level (1), goes (falls): where the points cross the level
  *   peak      along, between, extreme (least or greatest): where the best point is
  *   slope     along, scale: log (the exponent of a power law; default) or linear (the slope times

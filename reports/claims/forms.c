@@ -1,5 +1,6 @@
 #include "forms.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -76,22 +77,28 @@ static fm_status judge_mean(judging *to, fm_error *err)
     return FM_OK;
 }
 
-/* `next` may lie below `point` by the tolerance only. */
-static void judge_step(judging *to, const fm_claim_point *point, const fm_claim_point *next)
+/* `next` must lie above `point` by `least`. */
+static void judge_rise(judging *to, const fm_claim_point *point, const fm_claim_point *next,
+                       double least)
 {
     const fm_interval rise = interval_difference(next->value, point->value);
-    const double allowed = to->claim->tolerance * fabs(point->value.median);
     decision made = { .measured = interval_ratio(next->value, point->value),
                       .a = point,
                       .b = next };
     if (point->value.median == 0.0)
         made.measured = next->value; /* a ratio to nothing says nothing */
     made.margin = rise.median / fmax(fabs(point->value.median), 1e-12);
-    if (rise.low >= -allowed)
+    if (rise.low >= least)
         made.kind = FM_VERDICT_HOLDS;
     else
-        made.kind = rise.high < -allowed ? FM_VERDICT_FAILS : FM_VERDICT_UNCLEAR;
+        made.kind = rise.high < least ? FM_VERDICT_FAILS : FM_VERDICT_UNCLEAR;
     judging_decide(to, &made);
+}
+
+/* `next` may lie below `point` by the tolerance only. */
+static void judge_step(judging *to, const fm_claim_point *point, const fm_claim_point *next)
+{
+    judge_rise(to, point, next, -to->claim->tolerance * fabs(point->value.median));
 }
 
 /* Each point against the next selection's of the same workload; a selection that has none there is
@@ -141,8 +148,11 @@ typedef struct curve {
     size_t count;
 } curve;
 
+/* Small steps back, each within the tolerance, must not make a curve that goes nowhere hold. */
 static void judge_monotone(judging *to, const curve *of)
 {
+    const fm_claim_point *first = &of->points[0], *last = &of->points[of->count - 1];
+    judge_rise(to, to->claim->rises ? first : last, to->claim->rises ? last : first, DBL_TRUE_MIN);
     for (size_t i = 1; i < of->count; i++)
         if (to->claim->rises)
             judge_step(to, &of->points[i - 1], &of->points[i]);
