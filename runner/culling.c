@@ -11,7 +11,7 @@
 #define BOUNDARY "fm_cull_boundary"
 #define RANGE    "fm_cull_range"
 #define MAP      "fm_cull_map"
-#define PREFIX   "cull-" /* of the map's passes */
+#define PREFIX   "cull-" /* of the map's passes; plugin_check keeps it from others */
 
 enum { RESOURCES_ADDED = 3, PASSES_ADDED = 4, BUCKETS_PER_WORD = 32 };
 
@@ -41,7 +41,7 @@ static size_t count_accesses(const char *const names[FM_MAX_ACCESSES])
 
 bool culling_is_map_pass(const fm_pass *pass)
 {
-    return strncmp(pass->name, PREFIX, sizeof PREFIX - 1) == 0;
+    return pass->name != NULL && strncmp(pass->name, PREFIX, sizeof PREFIX - 1) == 0;
 }
 
 bool culling_is_applied(const fm_method_desc *method)
@@ -55,14 +55,8 @@ static fm_status check_room(const fm_method_desc *method, fm_error *err)
 {
     bool has_room = count_passes(method) + PASSES_ADDED <= FM_MAX_PASSES &&
                     count_resources(method) + RESOURCES_ADDED <= FM_MAX_RESOURCES;
-    for (size_t i = 0; i < count_passes(method); i++) {
+    for (size_t i = 0; i < count_passes(method); i++)
         has_room = has_room && count_accesses(method->passes[i].reads) < FM_MAX_ACCESSES;
-        if (culling_is_map_pass(&method->passes[i]))
-            return fm_fail(err, FM_UNSUPPORTED,
-                           "culling = occupancy: pass '%s' of %s is called as "
-                           "culling's own",
-                           method->passes[i].name, method->id);
-    }
     if (!has_room)
         return fm_fail(err, FM_UNSUPPORTED,
                        "culling = occupancy: %s leaves no room for %d passes and %d resources",
@@ -246,6 +240,6 @@ void culling_define(fm_text *text, const fm_pass *pass, const fm_settings *setti
 {
     shader_define(text, "FM_OWN_CULL", settings->own_cull == FM_OWN_CULL_ON);
     shader_define(text, "FM_CULL_IN_SHADER", tests_in_shader(pass));
-    if (pass->name != NULL && culling_is_map_pass(pass))
+    if (culling_is_map_pass(pass))
         shader_define(text, "FM_CULL_WORDS", settings->cull_words);
 }

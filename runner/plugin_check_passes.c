@@ -2,6 +2,7 @@
 #include <inttypes.h>
 #include <string.h>
 
+#include "culling.h"
 #include "plugin_check.h"
 
 enum { NAME_MAX_BYTES = 64, MAX_STENCIL = 255 };
@@ -27,6 +28,8 @@ static fm_status check_pass_name(const fm_checked_method *check, const fm_pass *
     const size_t length = strlen(pass->name);
     if (!check_is_word(pass->name, "-") || length >= sizeof function)
         return fm_fail(err, FM_INVALID, "name: needs lower-case letters, digits and hyphens");
+    if (culling_is_map_pass(pass))
+        return fm_fail(err, FM_INVALID, "name: '%s' begins like culling's own", pass->name);
     if (!kind_rules[pass->kind].has_shader || pass->kind == FM_PASS_SCENE)
         return FM_OK;
     memcpy(function, pass->name, length + 1);

@@ -153,9 +153,6 @@ static void what_cannot_be_culled_is_refused_with_the_reason(void **state)
             "32 buckets are fewer than k = 33");
     refuses(&method, TEXTS("width_px", "16384", "height_px", "16384"), FM_FEED_RASTER,
             "the map is over 2^32 words");
-    method.passes[0].name = "cull-fill";
-    refuses(&method, NULL, FM_FEED_RASTER, "pass 'cull-fill'");
-    method = make_method();
     for (size_t i = 5; i < FM_MAX_PASSES - 3; i++)
         method.passes[i] = method.passes[4];
     refuses(&method, NULL, FM_FEED_RASTER, "no room for 4 passes");

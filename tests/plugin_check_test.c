@@ -263,6 +263,7 @@ static void plugin_check_rejects_bad_passes(void **state)
     REFUSES(memset(m.passes, 0, sizeof m.passes), "");
     REFUSES(m.passes[RESOLVE].name = "Resolve", "name: needs lower-case");
     REFUSES(m.passes[RESOLVE].name = "store", "twice");
+    REFUSES(m.passes[RESOLVE].name = "cull-fill", "culling's own");
     REFUSES(m.passes[SPREAD].name = "sample", "reserved");
     REFUSES(m.passes[SPREAD].name = "pool", "resource's name too");
     REFUSES(m.passes[COUNT].kind = FM_PASS_KIND_COUNT, "kind");

@@ -338,7 +338,8 @@ typedef struct fm_state {
 } fm_state;
 
 typedef struct fm_pass {
-    const char *name; /* clear, count, reference, store, resolve, or the method's own */
+    const char *name; /* clear, count, reference, store, resolve, or the method's own, which does
+                         not begin with cull- */
     fm_pass_kind kind;
     const char *shader;                  /* file beside the plugin, or "OTHER-METHOD/file.glsl" */
     const char *reads[FM_MAX_ACCESSES];  /* resources; barriers follow from these two lists */
