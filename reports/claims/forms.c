@@ -25,13 +25,19 @@ static double slack(const fm_claim *claim, double bound)
     return bound == 0.0 ? claim->tolerance : claim->tolerance * fabs(bound);
 }
 
+void bounds_of(double bounds[2], const fm_claim *claim)
+{
+    bounds[0] = isinf(claim->low) ? claim->low : claim->low - slack(claim, claim->low);
+    bounds[1] = isinf(claim->high) ? claim->high : claim->high + slack(claim, claim->high);
+}
+
 fm_verdict_kind bounds_judge(const fm_claim *claim, fm_interval value)
 {
-    const double low = isinf(claim->low) ? claim->low : claim->low - slack(claim, claim->low);
-    const double high = isinf(claim->high) ? claim->high : claim->high + slack(claim, claim->high);
-    if (value.low >= low && value.high <= high)
+    double bounds[2];
+    bounds_of(bounds, claim);
+    if (value.low >= bounds[0] && value.high <= bounds[1])
         return FM_VERDICT_HOLDS;
-    return value.high < low || value.low > high ? FM_VERDICT_FAILS : FM_VERDICT_UNCLEAR;
+    return value.high < bounds[0] || value.low > bounds[1] ? FM_VERDICT_FAILS : FM_VERDICT_UNCLEAR;
 }
 
 /* How far the median is from the nearest bound, as a share of it; below 0 outside. */

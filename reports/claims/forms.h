@@ -26,6 +26,8 @@ const char *verdict_name(fm_verdict_kind kind);
 fm_status claim_judge(fm_verdict *verdict, const fm_claim *claim, const fm_claim_rows *rows,
                       const fm_claim_points *points, fm_error *err);
 
+/* The bounds as they are judged: widened by the tolerance; infinite: none. */
+void bounds_of(double bounds[2], const fm_claim *claim);
 /* Where the interval lies: inside the bounds, outside, or across one. */
 fm_verdict_kind bounds_judge(const fm_claim *claim, fm_interval value);
 

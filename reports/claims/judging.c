@@ -82,6 +82,27 @@ static void name_deciders(fm_verdict *verdict, const judging *to)
     free(used);
 }
 
+/* Why an interval does not decide. */
+static void explain_unclear(fm_verdict *verdict, const judging *to)
+{
+    static const char *const why[FM_CLAIM_FORM_COUNT] = {
+        [FM_CLAIM_ORDER] = "the interval of this step allows both ways",
+        [FM_CLAIM_MONOTONE] = "the interval of this step allows both ways",
+        [FM_CLAIM_CROSSING] = "the interval reaches beyond what is claimed",
+        [FM_CLAIM_PEAK] = "values that reach beyond what is claimed may be as good",
+    };
+    double bounds[2];
+    const fm_interval *value = &to->worst.measured;
+    bounds_of(bounds, to->claim);
+    if (why[to->claim->form] != NULL)
+        add(verdict, "unclear: %s", why[to->claim->form]);
+    else if (isinf(value->low) && isinf(value->high))
+        add(verdict, "unclear: what it is divided by may be 0, within its interval");
+    else
+        add(verdict, "unclear: the interval crosses the bound %.4g",
+            value->low < bounds[0] ? bounds[0] : bounds[1]);
+}
+
 void judging_end(fm_verdict *verdict, const judging *to)
 {
     size_t few = 0;
@@ -89,6 +110,8 @@ void judging_end(fm_verdict *verdict, const judging *to)
     if (to->count > 1)
         add(verdict, "%zu compared, %.4g to %.4g", to->count, to->least, to->greatest);
     name_deciders(verdict, to);
+    if (to->worst.kind == FM_VERDICT_UNCLEAR)
+        explain_unclear(verdict, to);
     for (size_t i = 0; i < to->points->count; i++)
         few += to->points->points[i].has_few_samples;
     if (few > 0)

@@ -1,0 +1,57 @@
+/* A verdict of "unclear" says why. */
+#include "claims_kit.h"
+
+/* b over a is 1, 1 and 1 at k 4, 8 and 16, each within a wide interval. */
+static const fakes noisy = { { { ROW("a", 4, 0.25, 10), .noise = 0.2 },
+                               { ROW("a", 8, 0.25, 20), .noise = 0.2 },
+                               { ROW("a", 16, 0.25, 40), .noise = 0.2 },
+                               { ROW("b", 4, 0.25, 10), .noise = 0.2 },
+                               { ROW("b", 8, 0.25, 20), .noise = 0.2 },
+                               { ROW("b", 16, 0.25, 40), .noise = 0.2 } } };
+#define RATIO "of: { method: b }\nover: { method: a }\n"
+
+static const struct undecided {
+    const char *claim, *reason;
+} undecided[] = {
+    { "at_most: 1\ntolerance: 0.05\n" RATIO, "crosses the bound 1.05" },
+    { "at_least: 0.9\nat_most: 9\n" RATIO, "crosses the bound 0.9" },
+    { "form: mean\nat_most: 1\n" RATIO, "crosses the bound 1" },
+    { "form: order\nof: [{ method: a }, { method: b }]\n", "allows both ways" },
+    { "form: monotone\nalong: k\ngoes: rises\n" RATIO, "allows both ways" },
+    { "form: crossing\nalong: k\nbetween: [8, 16]\n" RATIO, "beyond what is claimed" },
+    { "form: peak\nalong: k\nbetween: [8, 8]\n" RATIO, "may be as good" },
+    { "form: slope\nalong: k\nequals: 1\nof: { method: b }\n", "crosses the bound 1" },
+    { "form: spread\nalong: k\nat_most: 1.01\n" RATIO, "crosses the bound 1.01" },
+    { "form: spread\nalong: k\nat_most: 1.5\nof: { method: b }\nminus: { method: a }\n",
+      "may be 0" },
+};
+
+static void unclear_verdicts_say_why(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof undecided / sizeof undecided[0]; i++) {
+        const judged made = judge_beside(undecided[i].claim, &noisy, NULL);
+        if (made.verdict.kind != FM_VERDICT_UNCLEAR)
+            fail_msg("%s: %s", undecided[i].claim, verdict_name(made.verdict.kind));
+        if (strstr(made.verdict.reason, undecided[i].reason) == NULL)
+            fail_msg("%s: \"%s\" is not in \"%s\"", undecided[i].claim, undecided[i].reason,
+                     made.verdict.reason);
+    }
+}
+
+static void decided_verdicts_are_not_called_unclear(void **state)
+{
+    (void)state;
+    const judged made = judge_beside("at_most: 9\n" RATIO, &noisy, NULL);
+    assert_int_equal(made.verdict.kind, FM_VERDICT_HOLDS);
+    assert_null(strstr(made.verdict.reason, "unclear"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(unclear_verdicts_say_why),
+        cmocka_unit_test(decided_verdicts_are_not_called_unclear),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
