@@ -118,6 +118,17 @@ static fm_status open_reference(fm_result_files **reference, char path[1024],
                : fm_fail(err, FM_INVALID, "no reference \"%s\" in %s", name, folders[0]);
 }
 
+/* A run is no other machine's reference of itself. */
+static void drop_own_reference(fm_result_files **reference, const fm_result_files *results)
+{
+    const char *run_id = provenance_fact(results->manifest, "run_id");
+    if (*reference == NULL || run_id[0] == '\0' ||
+        strcmp(provenance_fact((*reference)->manifest, "run_id"), run_id) != 0)
+        return;
+    result_files_close(*reference);
+    *reference = NULL;
+}
+
 /* Judges and writes claims.csv, where the figures make claims. */
 static fm_status judge_claims(fm_claim_results *verdicts, const fm_report_desc *report,
                               fm_error *err)
@@ -165,6 +176,7 @@ static int make_report(arguments *given, fm_error *err)
     if (result_files_read(&results, given->directory, err) != FM_OK ||
         open_reference(&reference, reference_path, given, err) != FM_OK)
         goto out;
+    drop_own_reference(&reference, results);
     if (given->figure_count == 0)
         take_figures_of_run(given, results->manifest);
     if (read_figures(figures, given, err) != FM_OK) {

@@ -182,8 +182,8 @@ fm_status paper_figure_read(fm_paper_figure **figure, const char *path, fm_error
     if (status == FM_OK)
         status = read_head(made, made->tree, &at);
     const fm_yaml *charts = status == FM_OK ? yaml_tree_find(made->tree, "charts") : NULL;
-    const bool is_table = status == FM_OK && yaml_tree_find(made->tree, "table") != NULL;
-    if (status == FM_OK && !(charts == NULL && is_table))
+    made->has_table = status == FM_OK && yaml_tree_find(made->tree, "table") != NULL;
+    if (status == FM_OK && !(charts == NULL && made->has_table))
         status = read_charts(made, charts, &at);
     if (status == FM_OK)
         status = read_paper_points(made, yaml_tree_find(made->tree, "paper_points"), &at);

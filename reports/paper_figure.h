@@ -75,6 +75,7 @@ typedef struct fm_paper_point {
 typedef struct fm_paper_figure {
     const char *id, *paper, *title, *source;
     fm_name_list methods, scenes, feeds; /* of `run`; empty: all */
+    bool has_table;                      /* of memory: its rows are in memory.csv */
     fm_name_list deviations;
     fm_figure_chart charts[FM_FIGURE_CHARTS];
     size_t chart_count;

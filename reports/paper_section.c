@@ -5,6 +5,7 @@
 
 #include "figure_charts.h"
 #include "html.h"
+#include "memory_rows.h"
 #include "verdict_table.h"
 
 static const struct {
@@ -94,12 +95,15 @@ static fm_status add_figure(fm_writer *to, const fm_paper_figure *figure)
     html_add(&to->page, figure->title);
     text_add(&to->page, "</h3>\n<p class=faint>");
     html_add(&to->page, figure->source);
-    text_add(&to->page, "</p>\n<p class=links>Data: <a href=\"summary.csv\">summary.csv</a> "
-                        "<a href=\"samples.csv\">samples.csv</a></p>\n");
+    text_add(&to->page,
+             "</p>\n<p class=links>Data: <a href=\"summary.csv\">summary.csv</a> "
+             "<a href=\"samples.csv\">samples.csv</a>%s</p>\n",
+             figure->has_table ? " <a href=\"memory.csv\">memory.csv</a>" : "");
     for (size_t i = 0; i < figure->chart_count && status == FM_OK; i++)
         status = add_charts(to, figure, &figure->charts[i], &drawn);
     if (drawn == 0 && figure->chart_count > 0)
         text_add(&to->page, "<p class=note>No case of this run belongs to this figure.</p>\n");
+    memory_rows_add(&to->page, to->results->memory, figure->id);
     add_deviations(&to->page, figure);
     return status;
 }

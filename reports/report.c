@@ -16,7 +16,6 @@
 #include "paper_section.h"
 #include "pictures.h"
 #include "speed_error.h"
-#include "table.h"
 #include "writer.h"
 
 enum { PAGE_PICTURES_BYTES = 64 << 20 }; /* more would make a page that phones cannot open */
@@ -64,38 +63,6 @@ static fm_status add_speed_error(fm_writer *to, const fm_groups *groups, bool is
     if (groups->count == 0)
         text_add(&to->page, "<p class=note>summary.csv has no case yet.</p>\n");
     return status;
-}
-
-/* Any table of the directory as it is; absent: nothing. */
-static fm_status add_table(fm_writer *to, const char *file, const char *title)
-{
-    char path[1024];
-    fm_table *table = NULL;
-    snprintf(path, sizeof path, "%s/%s", to->results->directory, file);
-    if (access(path, F_OK) != 0)
-        return FM_OK;
-    fm_status status = table_read(&table, path, to->err);
-    if (status != FM_OK)
-        return status;
-    text_add(&to->page, "<h2>%s</h2>\n<div class=table><table><thead><tr>", title);
-    for (size_t i = 0; i < table->column_count; i++) {
-        text_add(&to->page, "<th>");
-        html_add(&to->page, table->names[i]);
-        text_add(&to->page, "</th>");
-    }
-    text_add(&to->page, "</tr></thead><tbody>\n");
-    for (size_t row = 0; row < table->row_count; row++) {
-        text_add(&to->page, "<tr>");
-        for (size_t i = 0; i < table->column_count; i++) {
-            text_add(&to->page, "<td>");
-            html_add(&to->page, table_cell(table, row, i));
-            text_add(&to->page, "</td>");
-        }
-        text_add(&to->page, "</tr>\n");
-    }
-    text_add(&to->page, "</tbody></table></div>\n");
-    table_close(table);
-    return FM_OK;
 }
 
 /* One picture of a case, embedded while there is room, with links to its files. */
@@ -203,8 +170,6 @@ static fm_status write_sections(fm_writer *to, const fm_report_desc *desc)
     page_begin(&to->page, to->results);
     page_add_links(&to->page, &papers);
     status = paper_sections_add(to);
-    if (status == FM_OK)
-        status = add_table(to, "memory.csv", "Memory by formula, and as printed");
     if (status == FM_OK)
         status = add_pictures(to, &groups);
     if (status == FM_OK)

@@ -318,6 +318,21 @@ static fm_status read_figures(fm_result_files *results, fm_error *err)
     return status;
 }
 
+static fm_status read_memory(fm_result_files *results, fm_error *err)
+{
+    char path[1024];
+    size_t column;
+    snprintf(path, sizeof path, "%s/memory.csv", results->directory);
+    if (access(path, F_OK) != 0)
+        return FM_OK;
+    fm_status status = table_read(&results->memory, path, err);
+    if (status == FM_OK)
+        status = need_column(&column, results->memory, "figure", err);
+    if (status == FM_OK)
+        status = need_column(&column, results->memory, "workload", err);
+    return status;
+}
+
 fm_status result_files_read(fm_result_files **results, const char *directory, fm_error *err)
 {
     char path[1024];
@@ -338,6 +353,8 @@ fm_status result_files_read(fm_result_files **results, const char *directory, fm
         status = read_samples(made, err);
     if (status == FM_OK)
         status = read_figures(made, err);
+    if (status == FM_OK)
+        status = read_memory(made, err);
     if (status != FM_OK) {
         result_files_close(made);
         return status;
@@ -356,6 +373,7 @@ void result_files_close(fm_result_files *results)
     free(results->sample_rows);
     free(results->sample_first);
     free(results->cases);
+    table_close(results->memory);
     table_close(results->figures);
     table_close(results->samples);
     table_close(results->summary);

@@ -1,5 +1,5 @@
 /* The result files of one directory, read and checked: manifest.json, summary.csv, samples.csv,
- * and figures.csv where there is one. */
+ * and figures.csv and memory.csv where they are. */
 #ifndef FM_RESULT_FILES_H
 #define FM_RESULT_FILES_H
 
@@ -44,6 +44,7 @@ typedef struct fm_result_files {
     fm_provenance *manifest;
     fm_table *summary, *samples;
     fm_table *figures; /* figures.csv; NULL: there is none */
+    fm_table *memory;  /* memory.csv; NULL: there is none */
     const char *figure_names[FM_RESULT_FIGURES];
     size_t figure_count;
     fm_case_row *cases;

@@ -209,6 +209,42 @@ static void required_claim_that_fails_is_exit_code_1(void **state)
     assert_int_equal(report_exit("2"), 1);
 }
 
+/* Rows of claims.csv when the folder of this run id is reported beside one of the other id. */
+static size_t rows_beside(const char *run_id, const char *other_id)
+{
+    char own[64], other[64], text[256], command[512], path[128];
+    fm_table *claims = NULL;
+    kit_make_results(own, &usual);
+    kit_make_results(other, &usual);
+    snprintf(text, sizeof text, "{\"run_id\": \"%s\"}", run_id);
+    kit_write_file(own, "manifest.json", text);
+    snprintf(text, sizeof text, "{\"run_id\": \"%s\"}", other_id);
+    kit_write_file(other, "manifest.json", text);
+    kit_write_file(own, "f-1.yml",
+                   "id: f-1\npaper: f\ntitle: t\ncharts:\n"
+                   "  - { id: c, title: c, x: k, y: frame_ms }\n"
+                   "claims:\n  - { id: F-1, text: t, at_most: 9, of: { method: b },"
+                   " over: { method: a } }\n");
+    snprintf(command, sizeof command, "%s %s -r %s -f %s/f-1.yml >/dev/null 2>&1",
+             FM_REPORT_PROGRAM, own, other, own);
+    assert_int_equal(system(command), 0);
+    snprintf(path, sizeof path, "%s/claims.csv", own);
+    assert_int_equal(table_read(&claims, path, NULL), FM_OK);
+    const size_t count = claims->row_count;
+    table_close(claims);
+    kit_remove_directory(own);
+    kit_remove_directory(other);
+    return count;
+}
+
+static void a_run_is_no_reference_of_itself(void **state)
+{
+    (void)state;
+    assert_int_equal(rows_beside("one", "other"), 2);
+    assert_int_equal(rows_beside("one", "one"), 1);
+    assert_int_equal(rows_beside("", ""), 2); /* nobody knows */
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -219,6 +255,7 @@ int main(void)
         cmocka_unit_test(grouped_bars_bear_the_papers_marks_of_their_workload),
         cmocka_unit_test(charts_may_run_along_any_column),
         cmocka_unit_test(required_claim_that_fails_is_exit_code_1),
+        cmocka_unit_test(a_run_is_no_reference_of_itself),
         cmocka_unit_test(another_machine_draws_thin_curves),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

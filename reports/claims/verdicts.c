@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "figure_charts.h"
 #include "results.h"
@@ -175,14 +174,6 @@ static fm_status judge_figure(verdicts_job *own, verdicts_job *reference,
     return status;
 }
 
-static fm_status open_memory(fm_table **memory, const fm_result_files *results, fm_error *err)
-{
-    char path[1024];
-    *memory = NULL;
-    snprintf(path, sizeof path, "%s/memory.csv", results->directory);
-    return access(path, F_OK) == 0 ? table_read(memory, path, err) : FM_OK;
-}
-
 static fm_status open_job(verdicts_job *job, const fm_result_files *results, fm_error *err)
 {
     job->results = results;
@@ -198,20 +189,16 @@ static fm_status open_job(verdicts_job *job, const fm_result_files *results, fm_
 
 fm_status verdicts_make(fm_claim_results *verdicts, const fm_verdicts_desc *desc, fm_error *err)
 {
-    fm_table *memory = NULL;
-    verdicts_job own = { .to = verdicts }, reference = { .to = verdicts, .is_reference = true };
+    verdicts_job own = { .to = verdicts, .memory = desc->results->memory },
+                 reference = { .to = verdicts, .is_reference = true };
     *verdicts = (fm_claim_results){ 0 };
-    fm_status status = open_memory(&memory, desc->results, err);
-    if (status == FM_OK)
-        status = open_job(&own, desc->results, err);
+    fm_status status = open_job(&own, desc->results, err);
     if (status == FM_OK)
         status = open_job(&reference, desc->reference, err);
-    own.memory = memory;
     for (size_t i = 0; i < desc->figure_count && status == FM_OK; i++)
         status = judge_figure(&own, &reference, desc->figures[i]);
     free(own.takes);
     free(reference.takes);
-    table_close(memory);
     if (status != FM_OK)
         verdicts_free(verdicts);
     return status;
