@@ -63,8 +63,24 @@ check spec_error_names_file_and_line 2 "bad.yml:2" "$program" run "$here/bad.yml
 check bad_memory_limit_is_a_usage_error 2 "4G" "$program" run --memory-limit 4X
 check bad_timeout_is_a_usage_error 2 "seconds" "$program" run --timeout 0
 check unknown_figure_names_the_nearest 2 "kplus-05" "$program" reproduce kplus-5
+check unknown_paper_names_the_nearest 2 "nearest is 'sbuffer'" "$program" reproduce sbufer
+check unknown_claim_names_the_nearest 2 "nearest is 'KP-20'" "$program" reproduce KP20
 check claim_names_its_figure 0 "4 ok" "$program" reproduce KP-26 --smoke --device dummy --no-report -o "$here/claim"
 grep -q '^kplus-03,' "$here/claim/figures.csv" || complain "claim_names_its_figure: figures.csv does not"
+
+# A table of memory is a figure like others: nothing is measured, claims are judged.
+check table_is_reproduced 0 "0 differ" "$program" reproduce kplus-table1 -o "$here/table"
+grep -q '^kplus-table1,' "$here/table/memory.csv" || complain "table_is_reproduced: no memory.csv"
+check table_is_reproduced_again 0 "0 differ" "$program" reproduce kplus-table1 -o "$here/table"
+if [ -x "$(dirname "$program")/fragmark-report" ]; then
+    grep -q '^KP-20,.*,holds,' "$here/table/claims.csv" || complain "table_is_judged: KP-20"
+    check table_is_reported 0 "report.html" "$program" report "$here/table"
+    mkdir "$here/figures"
+    sed 's/equals: -8388608/equals: -8388607/' "$(dirname "$program")/figures/kplus-table1.yml" \
+        >"$here/figures/kplus-table1.yml"
+    check required_claim_of_a_table_fails 1 "must hold" \
+        env FRAGMARK_FIGURE_PATH="$here/figures" "$program" reproduce KP-20 -o "$here/wrong"
+fi
 check report_needs_a_folder 2 "which DIR" "$program" report
 
 run() { "$program" run --method kplus-array,z-buffer "${small[@]}" -a launches="$1" -o "$here/$2"; }

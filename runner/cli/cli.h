@@ -60,6 +60,7 @@ typedef struct fm_arguments {
     fm_names positional; /* one spec; figures where it takes them */
     fm_names methods, scenes, devices, feeds, axes, plugin_folders;
     const char *directory; /* -o; NULL: not given */
+    const char *reference; /* for the report: NAME, DIR or none; NULL: not given */
     uint32_t timeout_s;
     uint64_t memory_bytes, seed;
     bool has_seed, no_images, no_report, validation, no_timers, quiet, json, smoke, large;
@@ -109,6 +110,8 @@ typedef struct fm_figure_list {
 } fm_figure_list;
 fm_status figures_list(fm_figure_list *list, fm_error *err);
 void figures_free(fm_figure_list *list);
+/* Adds the ids of the figure's claims; a damaged file has none. FM_NO_MEMORY. */
+fm_status figure_add_claims(fm_names *names, const fm_figure *figure, fm_error *err);
 /* Whether the figure makes the claim of this id. */
 bool figure_has_claim(const fm_figure *figure, const char *claim);
 /* How much of a figure is measured: its `run`; `smoke` over it; or `large` too, which takes a
@@ -119,9 +122,17 @@ typedef enum fm_figure_size { FM_FIGURE_FULL, FM_FIGURE_SMOKE, FM_FIGURE_LARGE }
 fm_status figure_write_specs(fm_names *paths, const char *folder, const fm_figure *figure,
                              fm_figure_size size, fm_error *err);
 
-/* Plans are run, reported and summed up: the end of run and reproduce. figures ends with NULL. */
-int cli_run_plan(const fm_arguments *arguments, const char *directory, const fm_plan *plan,
-                 const fm_plugin_list *plugins, const char *const *figures, const char *command);
+/* What run and reproduce end with; all of it is borrowed. */
+typedef struct cli_run_desc {
+    const char *directory;
+    const char *command; /* for the manifest */
+    const fm_plan *plan; /* without a case: a reproduction of tables alone */
+    const fm_plugin_list *plugins;
+    const char *const *figures; /* ids; ends with NULL */
+    const fm_text *memory;      /* memory.csv, which the report shows; NULL or empty: none */
+} cli_run_desc;
+/* The plan is run, reported and summed up. */
+int cli_run_plan(const fm_arguments *arguments, const cli_run_desc *desc);
 /* A line for each reason why cases of the run in this folder are not ok, each once, the first few.
  */
 void cli_reasons(FILE *talk, const char *directory);

@@ -35,18 +35,31 @@ static void read_head(fm_figure *figure)
     yaml_tree_free(root);
 }
 
-bool figure_has_claim(const fm_figure *figure, const char *claim)
+fm_status figure_add_claims(fm_names *names, const fm_figure *figure, fm_error *err)
 {
     fm_yaml *root = NULL;
     fm_error below = { 0 };
-    bool is_found = false;
+    fm_status status = FM_OK;
     const bool is_read = yaml_tree_read(&root, figure->path, &below) == FM_OK;
     const fm_yaml *claims = is_read ? yaml_tree_find(root, "claims") : NULL;
-    for (size_t i = 0; claims != NULL && i < claims->count && !is_found; i++) {
+    for (size_t i = 0; claims != NULL && i < claims->count && status == FM_OK; i++) {
         const fm_yaml *id = yaml_tree_find(&claims->items[i], "id");
-        is_found = id != NULL && id->text != NULL && strcmp(id->text, claim) == 0;
+        if (id != NULL && id->text != NULL)
+            status = names_add(names, id->text, err);
     }
     yaml_tree_free(root);
+    return status;
+}
+
+bool figure_has_claim(const fm_figure *figure, const char *claim)
+{
+    fm_names ids = { 0 };
+    fm_error below = { 0 };
+    bool is_found = false;
+    figure_add_claims(&ids, figure, &below);
+    for (size_t i = 0; i < ids.count && !is_found; i++)
+        is_found = strcmp(ids.names[i], claim) == 0;
+    names_free(&ids);
     return is_found;
 }
 

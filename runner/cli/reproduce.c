@@ -7,11 +7,14 @@
 #include "cli.h"
 #include "memory_table.h"
 
-enum { KEY_SMOKE = 512, KEY_LARGE };
+enum { KEY_SMOKE = 512, KEY_LARGE, KEY_REFERENCE };
 
 static const struct argp_option options[] = {
     { "smoke", KEY_SMOKE, NULL, 0, "the figure's own small variant: minutes, no GPU needed", 0 },
     { "large", KEY_LARGE, NULL, 0, "also what takes hours without a GPU", 0 },
+    { "reference", KEY_REFERENCE, "NAME|DIR|none", 0,
+      "another machine's results beside ours in all charts; without it h100 in ratios and verdicts",
+      0 },
     { 0 },
 };
 
@@ -24,6 +27,9 @@ static error_t parse(int key, char *text, struct argp_state *state)
         return 0;
     case KEY_LARGE:
         arguments->large = true;
+        return 0;
+    case KEY_REFERENCE:
+        arguments->reference = text;
         return 0;
     case ARGP_KEY_END:
         if (arguments->smoke && arguments->large)
@@ -57,30 +63,54 @@ static const struct argp argp = {
     .children = children,
 };
 
+/* Length of the paper's id at the start of a figure's: "kplus" of kplus-05, kplus-06, ... */
+static size_t paper_length(const fm_figure *figure)
+{
+    return strcspn(figure->id, "-");
+}
+
 /* "kplus" names all of kplus-05, kplus-06, ...; KP-3 the figure that claims it. */
 static bool is_meant(const fm_figure *figure, const char *name)
 {
     const size_t length = strlen(name);
     return strcmp(name, "all") == 0 || strcmp(name, figure->id) == 0 ||
-           (strncmp(name, figure->id, length) == 0 && figure->id[length] == '-') ||
+           (length == paper_length(figure) && strncmp(name, figure->id, length) == 0) ||
            figure_has_claim(figure, name);
+}
+
+/* All that may be asked for: papers, figures, claims, and "all". */
+static fm_status add_known_names(fm_names *known, const fm_figure_list *list, fm_error *err)
+{
+    fm_status status = names_add(known, "all", err);
+    for (size_t i = 0; i < list->count && status == FM_OK; i++) {
+        char paper[sizeof list->figures[i].id];
+        snprintf(paper, sizeof paper, "%.*s", (int)paper_length(&list->figures[i]),
+                 list->figures[i].id);
+        status = names_add(known, paper, err);
+        if (status == FM_OK)
+            status = names_add(known, list->figures[i].id, err);
+        if (status == FM_OK)
+            status = figure_add_claims(known, &list->figures[i], err);
+    }
+    return status;
 }
 
 static fm_status no_figure(const fm_figure_list *list, const char *name, fm_error *err)
 {
+    fm_names known = { 0 };
     if (list->count == 0)
         return fm_fail(err, FM_INVALID,
                        "no figures found; FRAGMARK_FIGURE_PATH names their folder");
-    const char **ids = calloc(list->count, sizeof *ids);
-    if (ids == NULL)
-        return fm_fail(err, FM_NO_MEMORY, "no memory for %zu figures", list->count);
-    for (size_t i = 0; i < list->count; i++)
-        ids[i] = list->figures[i].id;
-    const char *nearest = text_nearest(name, ids, list->count);
-    fm_fail(err, FM_INVALID, "no figure '%s'; %s '%s'", name,
-            nearest != NULL ? "the nearest is" : "there is", nearest != NULL ? nearest : ids[0]);
-    free(ids);
-    return FM_INVALID;
+    fm_status status = add_known_names(&known, list, err);
+    if (status == FM_OK) {
+        const char *nearest = text_nearest(name, (const char *const *)known.names, known.count);
+        status = fm_fail(err, FM_INVALID,
+                         "no figure, paper or claim '%s'; %s '%s' (`fragmark list figures`)", name,
+                         nearest != NULL ? "the nearest is" : "there is",
+                         nearest != NULL ? nearest : list->figures[0].id);
+    }
+    names_free(&known);
+    return status;
 }
 
 /* Marks what the arguments mean; a name that means nothing is an error. is_chosen: one for each
@@ -243,87 +273,69 @@ static fm_status assign_cases(fm_plan *plan, const char *directory, const spec_f
     return status;
 }
 
+/* Figures that are tables of memory: nothing to run. */
+static fm_status make_tables(fm_text *csv, const fm_cli *cli, const spec_files *specs,
+                             const fm_plugin_list *plugins, fm_error *err)
+{
+    fm_memory_verdicts verdicts = { 0 };
+    fm_status status = FM_OK;
+    for (size_t i = 0; i < specs->list->count && status == FM_OK; i++) {
+        const fm_figure *figure = &specs->list->figures[i];
+        bool is_table = false;
+        if (specs->is_chosen[i])
+            status = memory_table_is_in(&is_table, figure->path, err);
+        if (status == FM_OK && is_table)
+            status = memory_table_make(csv, &verdicts, figure->path, figure->id, plugins, err);
+    }
+    if (status == FM_OK && csv->length > 0)
+        fprintf(cli->talk,
+                "tables of memory: %u printed values are exact, %u are errata, "
+                "%u differ\n",
+                verdicts.exact, verdicts.errata, verdicts.differs);
+    return status;
+}
+
+/* No spec: a plan of no case. */
+static fm_status make_plan(fm_plan *plan, fm_plugin_list *plugins, const fm_arguments *arguments,
+                           const spec_files *specs, fm_error *err)
+{
+    if (specs->paths.count > 0)
+        return arguments_plan(plan, plugins, arguments, names_list(&specs->paths), err);
+    return plugin_list_open(plugins, names_list(&arguments->plugin_folders), err);
+}
+
 static int run_specs(const spec_files *specs, const fm_arguments *arguments)
 {
-    int code;
+    int code = CLI_USAGE;
     char directory[FM_PATH_MAX_BYTES];
     fm_plan plan = { 0 };
     fm_plugin_list plugins = { 0 };
+    fm_text memory = { 0 };
     fm_error err = { 0 };
     cli_directory(directory, arguments);
-    if (arguments_plan(&plan, &plugins, arguments, names_list(&specs->paths), &err) != FM_OK ||
+    const cli_run_desc desc = { .directory = directory,
+                                .command = specs->command,
+                                .plan = &plan,
+                                .plugins = &plugins,
+                                .figures = names_list(&specs->ids),
+                                .memory = &memory };
+    if (make_plan(&plan, &plugins, arguments, specs, &err) != FM_OK ||
+        make_tables(&memory, arguments->cli, specs, &plugins, &err) != FM_OK ||
         assign_cases(&plan, directory, specs, arguments, &plugins, &err) != FM_OK)
         code = cli_fail(arguments->cli, &err);
     else
-        code = cli_run_plan(arguments, directory, &plan, &plugins, names_list(&specs->ids),
-                            specs->command);
+        code = cli_run_plan(arguments, &desc);
     if (code != CLI_USAGE && code != CLI_DAMAGED)
         keep_specs(specs, directory);
+    text_free(&memory);
     plan_free(&plan);
     plugin_list_close(&plugins);
     return code;
 }
 
-/* ---- tables of memory: nothing to run ---- */
-
-static fm_status make_tables(fm_text *csv, fm_memory_verdicts *verdicts,
-                             const fm_arguments *arguments, const fm_figure_list *list,
-                             const bool *is_chosen, fm_error *err)
-{
-    fm_plugin_list plugins = { 0 };
-    fm_status status = plugin_list_open(&plugins, names_list(&arguments->plugin_folders), err);
-    for (size_t i = 0; i < list->count && status == FM_OK; i++) {
-        const fm_figure *figure = &list->figures[i];
-        bool is_table = false;
-        if (is_chosen[i])
-            status = memory_table_is_in(&is_table, figure->path, err);
-        if (status == FM_OK && is_table)
-            status = memory_table_make(csv, verdicts, figure->path, figure->id, &plugins, err);
-    }
-    plugin_list_close(&plugins);
-    return status;
-}
-
-/* DIR/memory.csv, which the report shows, and the same on stdout when nothing is to be measured. */
-static fm_status keep_tables(const fm_text *csv, const fm_memory_verdicts *verdicts,
-                             const fm_arguments *arguments, bool is_all, fm_error *err)
-{
-    char directory[FM_PATH_MAX_BYTES], path[2 * FM_PATH_MAX_BYTES];
-    const fm_cli *cli = arguments->cli;
-    cli_directory(directory, arguments);
-    if (mkdir(directory, 0777) != 0 && errno != EEXIST)
-        return fm_fail(err, FM_IO, "%s: %s", directory, strerror(errno));
-    snprintf(path, sizeof path, "%s/memory.csv", directory);
-    const fm_status status = text_write_file(path, csv->bytes, csv->length, err);
-    if (status != FM_OK)
-        return status;
-    if (is_all)
-        fputs(csv->bytes, cli->out);
-    fprintf(cli->talk, "%s: %u printed values are exact, %u are errata, %u differ\n", path,
-            verdicts->exact, verdicts->errata, verdicts->differs);
-    return FM_OK;
-}
-
-/* Tables first, then what has to be measured; *code is for main. */
-static fm_status reproduce(int *code, const spec_files *specs, const fm_arguments *arguments,
-                           fm_error *err)
-{
-    fm_text csv = { 0 };
-    fm_memory_verdicts verdicts = { 0 };
-    fm_status status = make_tables(&csv, &verdicts, arguments, specs->list, specs->is_chosen, err);
-    if (status == FM_OK && csv.length == 0 && specs->paths.count == 0)
-        status = fm_fail(err, FM_INVALID, "none of these figures has anything to run");
-    if (status == FM_OK && csv.length > 0)
-        status = keep_tables(&csv, &verdicts, arguments, specs->paths.count == 0, err);
-    if (status == FM_OK && specs->paths.count > 0)
-        *code = run_specs(specs, arguments);
-    text_free(&csv);
-    return status;
-}
-
 int cli_reproduce(const fm_cli *cli, int argc, char **argv)
 {
-    int code = CLI_DONE;
+    int code;
     fm_arguments arguments = { .cli = cli, .takes_figures = true };
     fm_figure_list list = { 0 };
     spec_files specs = { 0 };
@@ -341,10 +353,9 @@ int cli_reproduce(const fm_cli *cli, int argc, char **argv)
         status = open_specs(&specs, &err);
     if (status == FM_OK)
         status = write_specs(&specs, &arguments, &list, is_chosen, &err);
-    if (status == FM_OK)
-        status = reproduce(&code, &specs, &arguments, &err);
-    if (status != FM_OK)
-        code = cli_fail(cli, &err);
+    if (status == FM_OK && specs.ids.count == 0)
+        status = fm_fail(&err, FM_INVALID, "none of these figures has anything to run");
+    code = status == FM_OK ? run_specs(&specs, &arguments) : cli_fail(cli, &err);
     close_specs(&specs);
     free(is_chosen);
     figures_free(&list);

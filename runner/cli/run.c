@@ -63,45 +63,57 @@ char *cli_command_text(int argc, char **argv)
 }
 
 /* CLI_CLAIM_FAILS or CLI_DONE. */
-static int report(const fm_cli *cli, const char *directory)
+static int report(const fm_arguments *arguments, const char *directory)
 {
+    const fm_cli *cli = arguments->cli;
     char program[FM_PATH_MAX_BYTES];
     if (!report_find(program)) {
         fprintf(cli->talk, "fragmark-report is not here (it needs VTK and OpenImageIO): no charts "
                            "and no report.html; the CSV files are complete\n");
         return CLI_DONE;
     }
-    const int code = report_execute(program, directory, NULL);
+    const int code = report_execute(program, directory, arguments->reference);
     if (code != CLI_DONE && code != CLI_CLAIM_FAILS)
         fprintf(cli->talk, "%s failed (%d); again with: fragmark report %s\n", program, code,
                 directory);
     return code == CLI_CLAIM_FAILS ? code : CLI_DONE;
 }
 
-static int exit_code(const fm_run_result *result)
+static int exit_code(const fm_run_result *result, const fm_plan *plan)
 {
     if (result->stop_signal != 0)
         return CLI_SIGNAL + result->stop_signal;
     if (result->failed > 0)
         return CLI_SOME_FAILED;
-    return result->ok > 0 ? CLI_DONE : CLI_NOTHING;
+    return result->ok > 0 || plan->count == 0 ? CLI_DONE : CLI_NOTHING;
 }
 
 static void sum_up(const fm_arguments *arguments, const fm_run_result *result,
-                   const char *directory, const char *command)
+                   const cli_run_desc *desc)
 {
     FILE *talk = arguments->cli->talk;
     if (result->stop_signal != 0)
         fprintf(talk, "interrupted, nothing is lost: continue with the same command: %s%s%s\n",
-                command, arguments->directory == NULL ? " -o " : "",
-                arguments->directory == NULL ? directory : "");
-    fprintf(talk, "%s/summary.csv: %u ok, %u not supported, %u failed", directory, result->ok,
+                desc->command, arguments->directory == NULL ? " -o " : "",
+                arguments->directory == NULL ? desc->directory : "");
+    if (desc->plan->count == 0)
+        return;
+    fprintf(talk, "%s/summary.csv: %u ok, %u not supported, %u failed", desc->directory, result->ok,
             result->not_supported, result->failed);
     if (result->skipped > 0)
         fprintf(talk, ", %u not finished", result->skipped);
     fputc('\n', talk);
     if (result->not_supported + result->failed > 0)
-        cli_reasons(talk, directory);
+        cli_reasons(talk, desc->directory);
+}
+
+static fm_status keep_memory(const cli_run_desc *desc, fm_error *err)
+{
+    char path[FM_PATH_MAX_BYTES + 16];
+    if (desc->memory == NULL || desc->memory->length == 0)
+        return FM_OK;
+    snprintf(path, sizeof path, "%s/memory.csv", desc->directory);
+    return text_write_file(path, desc->memory->bytes, desc->memory->length, err);
 }
 
 /* Who edits a method and repeats a command would take old results for new ones. */
@@ -126,36 +138,40 @@ static fm_status expect_devices(const fm_plan *plan, fm_error *err)
     return status;
 }
 
-int cli_run_plan(const fm_arguments *arguments, const char *directory, const fm_plan *plan,
-                 const fm_plugin_list *plugins, const char *const *figures, const char *command)
+static int fail_run(const fm_arguments *arguments, bool is_damaged, const fm_error *err)
+{
+    const int code = cli_fail(arguments->cli, err);
+    if (err->status != FM_IO)
+        return code;
+    return is_damaged ? CLI_DAMAGED : CLI_NOTHING; /* or a full disk */
+}
+
+int cli_run_plan(const fm_arguments *arguments, const cli_run_desc *desc)
 {
     fm_error err = { 0 };
-    fm_run_result result;
-    const fm_run_desc desc = {
-        .directory = directory,
-        .command = command,
+    fm_run_result result = { 0 };
+    const fm_run_desc run = {
+        .directory = desc->directory,
+        .command = desc->command,
         .validation = arguments->validation,
         .no_timers = arguments->no_timers,
         .no_images = arguments->no_images,
         .timeout_s = arguments->timeout_s,
         .memory_bytes = arguments->memory_bytes,
         .progress = arguments->quiet ? NULL : arguments->cli->talk,
-        .figures = figures,
+        .figures = desc->figures,
     };
-    if (expect_devices(plan, &err) != FM_OK)
+    if (expect_devices(desc->plan, &err) != FM_OK)
         return cli_fail(arguments->cli, &err);
-    tell_continued(arguments, directory);
-    if (run_cases(&result, plan, plugins, &desc, &err) != FM_OK) {
-        const int code = cli_fail(arguments->cli, &err);
-        if (err.status != FM_IO)
-            return code;
-        return result.is_damaged ? CLI_DAMAGED : CLI_NOTHING; /* or a full disk */
-    }
-    sum_up(arguments, &result, directory, command);
+    tell_continued(arguments, desc->directory);
+    if (run_cases(&result, desc->plan, desc->plugins, &run, &err) != FM_OK ||
+        keep_memory(desc, &err) != FM_OK)
+        return fail_run(arguments, result.is_damaged, &err);
+    sum_up(arguments, &result, desc);
     if (result.stop_signal == 0 && !arguments->no_report &&
-        report(arguments->cli, directory) == CLI_CLAIM_FAILS)
+        report(arguments, desc->directory) == CLI_CLAIM_FAILS)
         return CLI_CLAIM_FAILS;
-    return exit_code(&result);
+    return exit_code(&result, desc->plan);
 }
 
 int cli_run(const fm_cli *cli, int argc, char **argv)
@@ -173,9 +189,14 @@ int cli_run(const fm_cli *cli, int argc, char **argv)
     if (arguments_plan(&plan, &plugins, &arguments, names_list(&arguments.positional), &err) !=
         FM_OK)
         code = cli_fail(cli, &err);
-    else
-        code = cli_run_plan(&arguments, directory, &plan, &plugins, none,
-                            command != NULL ? command : "");
+    else {
+        const cli_run_desc desc = { .directory = directory,
+                                    .command = command != NULL ? command : "",
+                                    .plan = &plan,
+                                    .plugins = &plugins,
+                                    .figures = none };
+        code = cli_run_plan(&arguments, &desc);
+    }
     plan_free(&plan);
     plugin_list_close(&plugins);
     arguments_free(&arguments);
