@@ -24,9 +24,12 @@ _Static_assert(
 /* bunny-in-cube's camera and place follow from its pixel density. */
 #define DENSITY BY(1u << FM_GENERATOR_LAYERS | 1u << FM_GENERATOR_BUNNY_IN_CUBE)
 #define MESH                                                                                       \
-    BY(~(1u << FM_GENERATOR_LAYERS | 1u << FM_GENERATOR_BUNNY_IN_CUBE | 1u << FM_GENERATOR_FRAMES))
-#define FRAMES BY(1u << FM_GENERATOR_FRAMES)
-#define QUIET  .scope = FM_SCOPE_CASE, .is_quiet = true
+    BY(~(1u << FM_GENERATOR_LAYERS | 1u << FM_GENERATOR_BUNNY_IN_CUBE |                            \
+         1u << FM_GENERATOR_FRAMES | 1u << FM_GENERATOR_STREAM))
+#define FRAMES     BY(1u << FM_GENERATOR_FRAMES)
+#define STREAM     BY(1u << FM_GENERATOR_STREAM)
+#define ANY_FRAMES BY(1u << FM_GENERATOR_FRAMES | 1u << FM_GENERATOR_STREAM)
+#define QUIET      .scope = FM_SCOPE_CASE, .is_quiet = true
 
 /* clang-format off */
 const fm_key fm_keys[] = {
@@ -34,7 +37,7 @@ const fm_key fm_keys[] = {
       .unit = "px", .help = "viewport" },
     { "height_px", FM_KEY_UINT, ANY, AT(height_px), .low = 1, .high = 16384, .fallback = "480",
       .unit = "px", .help = "viewport" },
-    { "generator", FM_KEY_ENUM, ANY, AT(generator), .values = { "layers", "mesh", "bunny-in-cube", "palace", "hairball", "engine", "temple", "hotel", "ivy", "frames" },
+    { "generator", FM_KEY_ENUM, ANY, AT(generator), .values = { "layers", "mesh", "bunny-in-cube", "palace", "hairball", "engine", "temple", "hotel", "ivy", "frames", "stream" },
       .fallback = "layers", .help = "what makes the scene" },
     { "n", FM_KEY_UINT, LAYERS, AT(n), .low = 0, .high = 65536, .fallback = "none",
       .optional = true, .absent = FM_NOT_GIVEN, .help = "layers" },
@@ -80,7 +83,9 @@ const fm_key fm_keys[] = {
       .help = "copies of the mesh" },
     { "instance_offset", FM_KEY_VECTOR, MESH, AT(instance_offset), .low = -1e4, .high = 1e4,
       .fallback = "0 0 0", .help = "from copy to copy, in box sizes" },
-    { "sequence_frames", FM_KEY_UINT, FRAMES, AT(sequence_frames), .low = 2, .high = 10000,
+    { "stream", FM_KEY_TEXT, STREAM, AT(stream), .fallback = "",
+      .help = "file of `fragmark record`, beside the file that names it" },
+    { "sequence_frames", FM_KEY_UINT, ANY_FRAMES, AT(sequence_frames), .low = 2, .high = 10000,
       .fallback = "60", .help = "frames of the sequence" },
     { "backgrounds", FM_KEY_UINT, FRAMES, AT(backgrounds), .low = 0, .high = 16, .fallback = "2",
       .help = "opaque layers of the whole screen, drawn first, without depth" },
@@ -108,11 +113,11 @@ const fm_key fm_keys[] = {
       .help = "probability that what lies under a piece of opaque panel changes in a frame" },
     { "translucent", FM_KEY_REAL, FRAMES, AT(translucent), .low = 0, .high = 1, .fallback = "0.1",
       .help = "share of sprites that are blended" },
-    { "fragment_instructions", FM_KEY_UINT, FRAMES, AT(fragment_instructions), .low = 1,
+    { "fragment_instructions", FM_KEY_UINT, ANY_FRAMES, AT(fragment_instructions), .low = 1,
       .high = 10000, .fallback = "8", .help = "of a shader, for each fragment" },
-    { "vertex_instructions", FM_KEY_UINT, FRAMES, AT(vertex_instructions), .low = 1, .high = 10000,
+    { "vertex_instructions", FM_KEY_UINT, ANY_FRAMES, AT(vertex_instructions), .low = 1, .high = 10000,
       .fallback = "12", .help = "of a shader, for each vertex" },
-    { "texture_bytes", FM_KEY_REAL, FRAMES, AT(texture_bytes), .low = 0, .high = 64,
+    { "texture_bytes", FM_KEY_REAL, ANY_FRAMES, AT(texture_bytes), .low = 0, .high = 64,
       .fallback = "2", .unit = "B", .help = "from memory, for each shaded fragment" },
     { "k", FM_KEY_UINT, FM_SCOPE_CASE, AT(k), .low = 1, .high = 4096, .fallback = "8",
       .optional = true, .absent = 0, .help = "nearest fragments to keep" },

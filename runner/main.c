@@ -17,6 +17,8 @@ static const struct {
       "the cases of a run and the estimated time; runs nothing" },
     { "run", "fragmark run", cli_run, "measures methods on scenes" },
     { "reproduce", "fragmark reproduce", cli_reproduce, "measures what figures of a paper show" },
+    { "record", "fragmark record", cli_record,
+      "a scene for the simulated GPU from what an OpenGL program draws" },
     { "report", "fragmark report", cli_report, "charts and report.html again from the CSV" },
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };

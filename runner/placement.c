@@ -21,8 +21,8 @@ static bool place(float clip_from_object[16], const double camera[16], const dou
 
 static const char *name_of(const fm_settings *settings)
 {
-    return settings_has_file(settings) ? settings->mesh
-                                       : key_find("generator")->values[settings->generator];
+    const char *file = settings_file(settings);
+    return file != NULL ? file : key_find("generator")->values[settings->generator];
 }
 
 /* The box of all instances; step: from one to the next. */

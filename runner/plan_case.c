@@ -177,7 +177,7 @@ static void skip_for_feed(fm_case *made, const fm_method_desc *method)
 static void skip_for_place(fm_case *made)
 {
     const uint32_t feed = feed_from_name(made->feed);
-    const bool has_frames = made->settings.generator == FM_GENERATOR_FRAMES;
+    const bool has_frames = generator_makes_frames(made->settings.generator);
     const fm_device_ops *ops = device_find(made->device);
     if (ops != NULL && (device_feeds(ops) & feed) == 0)
         snprintf(made->skip, sizeof made->skip, "feed '%s': device %s does not take it", made->feed,
@@ -246,8 +246,9 @@ static void make_skip(fm_case *made, const fm_plan_point *point)
     if (made->skip[0] == '\0')
         skip_for_culling(made, entry->plugin->method);
     if (made->skip[0] == '\0' && point->memo->error.status != FM_OK &&
-        settings_has_file(&made->settings))
-        snprintf(made->skip, sizeof made->skip, "mesh: %.400s", point->memo->error.message);
+        settings_file(&made->settings) != NULL)
+        snprintf(made->skip, sizeof made->skip, "%s: %.400s", settings_file_key(&made->settings),
+                 point->memo->error.message);
 }
 
 static uint64_t mix(uint64_t mixed, const char *text)
@@ -305,8 +306,8 @@ fm_status plan_case_make(fm_case *made, const fm_plan_point *point, fm_error *er
     snprintf(made->feed, sizeof made->feed, "%s", point->feed);
     if (point->entry->plugin != NULL)
         make_choices(made, point, point->entry->plugin->method);
-    if (settings_has_file(&made->settings))
-        remember_mesh(point->memo, made->settings.mesh);
+    if (settings_file(&made->settings) != NULL)
+        remember_mesh(point->memo, settings_file(&made->settings));
     make_skip(made, point);
     make_id(made, point);
     return FM_OK;

@@ -30,9 +30,11 @@ static fm_status fill(fm_scene *scene, fm_error *err)
     case FM_GENERATOR_IVY:
         return procedural_generate(scene, err);
     case FM_GENERATOR_FRAMES:
+    case FM_GENERATOR_STREAM:
         break; /* no scene of fragments: frames.h */
     }
-    return fm_fail(err, FM_INVALID, "generator frames: its scenes are for feed frames");
+    return fm_fail(err, FM_INVALID, "generator %s: its scenes are for feed frames",
+                   key_find("generator")->values[scene->settings.generator]);
 }
 
 fm_status scene_create(fm_scene **scene, const fm_settings *settings, fm_error *err)

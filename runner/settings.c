@@ -186,9 +186,22 @@ void settings_text(char text[FM_PATH_MAX_BYTES], const fm_settings *settings, co
     }
 }
 
-bool settings_has_file(const fm_settings *settings)
+const char *settings_file_key(const fm_settings *settings)
 {
-    return key_is_read(key_find("mesh"), settings->generator);
+    if (settings->generator == FM_GENERATOR_STREAM)
+        return "stream";
+    return key_is_read(key_find("mesh"), settings->generator) ? "mesh" : NULL;
+}
+
+const char *settings_file(const fm_settings *settings)
+{
+    const char *key = settings_file_key(settings);
+    return key != NULL ? const_field(settings, key_find(key)) : NULL;
+}
+
+bool generator_makes_frames(fm_generator generator)
+{
+    return generator == FM_GENERATOR_FRAMES || generator == FM_GENERATOR_STREAM;
 }
 
 bool settings_key_matters(const fm_settings *settings, const fm_key *key)
@@ -201,13 +214,22 @@ bool settings_key_matters(const fm_settings *settings, const fm_key *key)
     return strcmp(value, other->fallback) != 0;
 }
 
+static fm_status require_file(const fm_settings *settings, fm_error *err)
+{
+    const char *file = settings_file(settings);
+    if (file == NULL || file[0] != '\0')
+        return FM_OK;
+    return fm_fail(err, FM_INVALID, "%s: generator %s needs a file", settings_file_key(settings),
+                   key_find("generator")->values[settings->generator]);
+}
+
 static fm_status finish_mesh(fm_settings *settings, fm_error *err)
 {
     settings->n = 0;
     settings->r = 0;
-    if (settings_has_file(settings) && settings->mesh[0] == '\0')
-        return fm_fail(err, FM_INVALID, "mesh: generator %s needs a file",
-                       key_find("generator")->values[settings->generator]);
+    const fm_status status = require_file(settings, err);
+    if (status != FM_OK)
+        return status;
     const bool is_fitted =
         fpclassify(settings->near_plane) == FP_ZERO && fpclassify(settings->far_plane) == FP_ZERO;
     if (!is_fitted && !(settings->near_plane > 0 && settings->near_plane < settings->far_plane))
@@ -240,9 +262,9 @@ static fm_status complete_n(fm_settings *settings, fm_error *err)
 
 fm_status settings_finish(fm_settings *settings, fm_error *err)
 {
-    if (settings->generator == FM_GENERATOR_FRAMES) {
+    if (generator_makes_frames(settings->generator)) {
         settings->n = settings->r = 0;
-        return FM_OK;
+        return require_file(settings, err);
     }
     if (settings->generator != FM_GENERATOR_LAYERS)
         return finish_mesh(settings, err);
@@ -324,7 +346,8 @@ void settings_scene_hash_of(char hash[17], const fm_settings *settings, uint64_t
 void settings_scene_hash(char hash[17], const fm_settings *settings)
 {
     uint64_t digest = 0;
-    if (settings_has_file(settings) && settings_mesh_digest(&digest, settings->mesh, NULL) != FM_OK)
-        digest = XXH64(settings->mesh, strlen(settings->mesh), 0);
+    const char *file = settings_file(settings);
+    if (file != NULL && settings_mesh_digest(&digest, file, NULL) != FM_OK)
+        digest = XXH64(file, strlen(file), 0);
     settings_scene_hash_of(hash, settings, digest);
 }

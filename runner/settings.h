@@ -27,6 +27,7 @@ typedef enum fm_generator {
     FM_GENERATOR_HOTEL,
     FM_GENERATOR_IVY,
     FM_GENERATOR_FRAMES, /* a sequence of draw calls, for the simulated GPU */
+    FM_GENERATOR_STREAM, /* the same, recorded: a file */
 } fm_generator;
 
 typedef enum fm_order {
@@ -107,7 +108,8 @@ typedef struct fm_settings {
     uint32_t instances;
     double instance_offset[3]; /* in box sizes */
 
-    /* frames: what generators/frame_sequences.h makes of them */
+    /* frames: what generators/frame_sequences.h makes of them; stream: frame_stream.h */
+    char stream[FM_PATH_MAX_BYTES]; /* file; relative to the scene file that names it */
     uint32_t sequence_frames;
     uint32_t backgrounds, sprites, triangles;
     double object_px, depth_complexity, front_to_back;
@@ -178,8 +180,12 @@ extern const size_t fm_key_count;
 const fm_key *key_find(const char *name);
 /* The known key nearest in spelling to name: for messages. */
 const char *key_nearest(const char *name);
-/* Whether the generator's scenes read `mesh`: a file is part of them. */
-bool settings_has_file(const fm_settings *settings);
+/* The key (`mesh`, `stream`) that names the file which is part of the generator's scenes, and what
+ * it names; NULL: there is none. */
+const char *settings_file_key(const fm_settings *settings);
+const char *settings_file(const fm_settings *settings);
+/* Whether scenes of this generator are sequences of frames, for feed `frames`. */
+bool generator_makes_frames(fm_generator generator);
 /* Whether scenes of this generator read the key; true for keys that are not a scene's. */
 bool key_is_read(const fm_key *key, fm_generator generator);
 /* What values a key takes, in a few words: "1..16384", "spin|interlock". */
