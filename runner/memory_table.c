@@ -154,7 +154,7 @@ typedef struct table_row {
     const fm_method_desc *method;
     const char *title, *why;
     const fm_yaml *printed, *errata;
-    double added_per_pixel;
+    double added_per_pixel, added_per_pixel_k;
 } table_row;
 
 static fm_status add_cell(const table_job *job, const table_row *row, size_t index)
@@ -177,8 +177,9 @@ static fm_status add_cell(const table_job *job, const table_row *row, size_t ind
         return fm_fail(job->err, FM_INVALID, "%s:%u: 'printed': numbers are expected", job->path,
                        printed->line);
     const double pixels = (double)workload.width_px * workload.height_px;
-    const double ours = (double)formula_bytes(row->method, &workload) +
-                        (job->added_per_pixel + row->added_per_pixel) * pixels;
+    const double added =
+        job->added_per_pixel + row->added_per_pixel + row->added_per_pixel_k * (double)workload.k;
+    const double ours = (double)formula_bytes(row->method, &workload) + added * pixels;
     const char *verdict =
         judge(job->verdicts, ours / mib, printed->text, list_has(row->errata, printed->text));
     csv_add(job->csv, job->figure);
@@ -211,6 +212,8 @@ static fm_status add_row(const table_job *job, const fm_yaml *from, const fm_plu
         status = read_text(&row.why, from, "why", false, job);
     if (status == FM_OK)
         status = read_number(&row.added_per_pixel, from, "added_per_pixel", false, job);
+    if (status == FM_OK)
+        status = read_number(&row.added_per_pixel_k, from, "added_per_pixel_k", false, job);
     if (status == FM_OK)
         status = read_list(&row.printed, from, "printed", job);
     if (status == FM_OK && row.printed->count != job->columns->count)

@@ -8,6 +8,7 @@
  *       - method: ab-ll
  *         title: Linked Lists        as the paper has it
  *         added_per_pixel: 4         bytes of the published method that ours does without, or -
+ *         added_per_pixel_k: -1      the same, for each of k
  *         why: ...                   ... what they are
  *         printed: ["8.73", "22.35", "51.7"]      MiB, as printed; "": not printed
  *         errata: [51.7]             printed values that the paper's own formula does not give
