@@ -84,7 +84,8 @@ static bool has_value(points_job *job, const fm_case_row *result, const fm_inter
 {
     if (isfinite(value->median))
         return true;
-    note_missing(job, result, result->is_measured ? "no such metric" : result->status);
+    const char *why = result->message[0] != '\0' ? result->message : result->status;
+    note_missing(job, result, result->is_measured ? "no such metric" : why);
     return false;
 }
 
