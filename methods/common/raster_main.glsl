@@ -2,7 +2,8 @@
 void main()
 {
     uvec2 pixel = uvec2(gl_FragCoord.xy);
-    float depth = gl_FragCoord.z;
+    // As the depth test clamps it: interpolation may leave the range where a near plane cuts.
+    float depth = clamp(gl_FragCoord.z, 0.0, 1.0);
 #ifdef FM_PRIMITIVE
     fm_primitive = fm_in_instance * uint(FM_INSTANCE_TRIANGLES) + uint(gl_PrimitiveID);
 #endif
@@ -15,9 +16,9 @@ void main()
     is_alive = is_alive && !gl_HelperInvocation;
 #endif
 #if FM_CULL_IN_SHADER
-    // Before stencil and blending, as the depth test does it for passes that can have one. Less or equal;
-    // interpolation may round a depth beyond 1, and a boundary of 1 culls nothing.
-    is_alive = is_alive && min(depth, 1.0) <= fm_load_fm_cull_boundary(pixel).x;
+    // Before stencil and blending, as the depth test does it for passes that can have one. Less or equal:
+    // a boundary of 1 culls nothing.
+    is_alive = is_alive && depth <= fm_load_fm_cull_boundary(pixel).x;
 #endif
 #if FM_TARGETS
     if (!is_alive)
