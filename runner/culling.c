@@ -15,30 +15,6 @@
 
 enum { RESOURCES_ADDED = 3, PASSES_ADDED = 4, BUCKETS_PER_WORD = 32 };
 
-static size_t count_passes(const fm_method_desc *method)
-{
-    size_t count = 0;
-    while (count < FM_MAX_PASSES && method->passes[count].name != NULL)
-        count++;
-    return count;
-}
-
-static size_t count_resources(const fm_method_desc *method)
-{
-    size_t count = 0;
-    while (count < FM_MAX_RESOURCES && method->resources[count].name != NULL)
-        count++;
-    return count;
-}
-
-static size_t count_accesses(const char *const names[FM_MAX_ACCESSES])
-{
-    size_t count = 0;
-    while (count < FM_MAX_ACCESSES && names[count] != NULL)
-        count++;
-    return count;
-}
-
 bool culling_is_map_pass(const fm_pass *pass)
 {
     return pass->name != NULL && strncmp(pass->name, PREFIX, sizeof PREFIX - 1) == 0;
@@ -53,10 +29,10 @@ bool culling_is_applied(const fm_method_desc *method)
 
 static fm_status check_room(const fm_method_desc *method, fm_error *err)
 {
-    bool has_room = count_passes(method) + PASSES_ADDED <= FM_MAX_PASSES &&
-                    count_resources(method) + RESOURCES_ADDED <= FM_MAX_RESOURCES;
-    for (size_t i = 0; i < count_passes(method); i++)
-        has_room = has_room && count_accesses(method->passes[i].reads) < FM_MAX_ACCESSES;
+    bool has_room = pass_count(method) + PASSES_ADDED <= FM_MAX_PASSES &&
+                    resource_count(method) + RESOURCES_ADDED <= FM_MAX_RESOURCES;
+    for (size_t i = 0; i < pass_count(method); i++)
+        has_room = has_room && access_count(method->passes[i].reads) < FM_MAX_ACCESSES;
     if (!has_room)
         return fm_fail(err, FM_UNSUPPORTED,
                        "culling = occupancy: %s leaves no room for %d passes and %d resources",
@@ -93,7 +69,7 @@ fm_status culling_check(const fm_method_desc *method, const fm_settings *setting
 
 static bool is_multisampled(const fm_method_desc *method, const char *name, uint32_t k)
 {
-    for (size_t i = 0; i < count_resources(method); i++) {
+    for (size_t i = 0; i < resource_count(method); i++) {
         const fm_resource *resource = &method->resources[i];
         if (strcmp(resource->name, name) == 0)
             return resource->samples_option != NULL ||
@@ -116,7 +92,7 @@ static void test_pass(fm_pass *pass, const fm_method_desc *method, const fm_sett
     if (pass->kind != FM_PASS_SCENE || pass->cover != FM_COVER_NONE)
         return;
     if (settings->cull_test == FM_CULL_TEST_SHADER || !can_test_early(method, pass, settings->k)) {
-        pass->reads[count_accesses(pass->reads)] = BOUNDARY;
+        pass->reads[access_count(pass->reads)] = BOUNDARY;
         return;
     }
     /* Less or equal: the boundary is a depth that the k-th fragment may have. */
@@ -125,25 +101,32 @@ static void test_pass(fm_pass *pass, const fm_method_desc *method, const fm_sett
     pass->state.early_tests = true;
 }
 
-/* Formulas ask for options; they have no part in the choice of a buffer. */
-static const char *no_option(const fm_workload *workload, const char *name)
+/* What formulas ask: the workload's runner. */
+typedef struct asked_choices {
+    const fm_method_desc *method;
+    const fm_culling_desc *desc;
+} asked_choices;
+
+static const char *chosen_of(const fm_workload *workload, const char *name)
 {
-    (void)workload;
-    (void)name;
-    return NULL;
+    const asked_choices *asked = workload->runner;
+    return option_chosen(asked->method, name, asked->desc->choices, asked->desc->choice_count);
 }
 
 /* The method's largest buffer that stays as it is; NULL: it has none. Every method writes what it
  * reads within a frame, so that what the map leaves there is never read. */
-static const char *largest_buffer(const fm_method_desc *method, const fm_settings *settings)
+static const char *largest_buffer(const fm_method_desc *method, const fm_culling_desc *desc)
 {
-    const fm_workload workload = { .width_px = settings->width_px,
-                                   .height_px = settings->height_px,
-                                   .k = settings->k,
-                                   .option = no_option };
+    const asked_choices asked = { method, desc };
+    const fm_workload workload = { .width_px = desc->settings->width_px,
+                                   .height_px = desc->settings->height_px,
+                                   .k = desc->settings->k,
+                                   .n = desc->n,
+                                   .option = chosen_of,
+                                   .runner = &asked };
     const char *largest = NULL;
     uint64_t most = 0;
-    for (size_t i = 0; i < count_resources(method); i++) {
+    for (size_t i = 0; i < resource_count(method); i++) {
         const fm_resource *resource = &method->resources[i];
         if (resource->kind != FM_RESOURCE_BUFFER || resource->sizing != FM_SIZE_FIXED ||
             resource->ping_pong || resource->shares != NULL)
@@ -159,10 +142,11 @@ static const char *largest_buffer(const fm_method_desc *method, const fm_setting
 }
 
 static void add_resources(fm_method_desc *culled, const fm_method_desc *method,
-                          const fm_settings *settings)
+                          const fm_culling_desc *desc)
 {
+    const fm_settings *settings = desc->settings;
     const bool is_shared = settings->cull_memory == FM_CULL_MEMORY_SHARED;
-    fm_resource *added = &culled->resources[count_resources(method)];
+    fm_resource *added = &culled->resources[resource_count(method)];
     added[0] =
         (fm_resource){ .name = BOUNDARY, .kind = FM_RESOURCE_IMAGE, .format = FM_FORMAT_D32F };
     added[1] = (fm_resource){ .name = RANGE,
@@ -172,7 +156,7 @@ static void add_resources(fm_method_desc *culled, const fm_method_desc *method,
     added[2] = (fm_resource){ .name = MAP,
                               .extent = { .per_pixel = settings->cull_words },
                               .used = { .per_pixel = settings->cull_words },
-                              .shares = is_shared ? largest_buffer(method, settings) : NULL };
+                              .shares = is_shared ? largest_buffer(method, desc) : NULL };
 }
 
 static const fm_cover cover_of[] = {
@@ -208,21 +192,21 @@ static void add_passes(fm_method_desc *culled, const fm_method_desc *method,
         .reads = { RANGE, MAP },
         .state = { .depth_stencil = BOUNDARY, .depth_test = FM_COMPARE_ALWAYS, .depth_write = true }
     };
-    for (size_t i = 0; i < count_passes(method); i++) {
+    for (size_t i = 0; i < pass_count(method); i++) {
         passes[PASSES_ADDED + i] = method->passes[i];
         test_pass(&passes[PASSES_ADDED + i], method, settings);
     }
 }
 
 fm_status culling_apply(fm_method_desc *culled, const fm_method_desc *method,
-                        const fm_settings *settings, uint32_t feed, fm_error *err)
+                        const fm_culling_desc *desc, fm_error *err)
 {
     *culled = *method;
-    const fm_status status = culling_check(method, settings, feed, err);
-    if (status != FM_OK || settings->culling == FM_CULLING_NONE)
+    const fm_status status = culling_check(method, desc->settings, desc->feed, err);
+    if (status != FM_OK || desc->settings->culling == FM_CULLING_NONE)
         return status;
-    add_resources(culled, method, settings);
-    add_passes(culled, method, settings);
+    add_resources(culled, method, desc);
+    add_passes(culled, method, desc->settings);
     return FM_OK;
 }
 
@@ -230,7 +214,7 @@ fm_status culling_apply(fm_method_desc *culled, const fm_method_desc *method,
 
 static bool tests_in_shader(const fm_pass *pass)
 {
-    for (size_t i = 0; pass->kind == FM_PASS_SCENE && i < count_accesses(pass->reads); i++)
+    for (size_t i = 0; pass->kind == FM_PASS_SCENE && i < access_count(pass->reads); i++)
         if (strcmp(pass->reads[i], BOUNDARY) == 0)
             return true;
     return false;

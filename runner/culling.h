@@ -17,8 +17,8 @@
 #ifndef FM_CULLING_H
 #define FM_CULLING_H
 
+#include "descriptor.h"
 #include "error.h"
-#include "fragmark/method.h"
 #include "settings.h"
 #include "text.h"
 
@@ -28,10 +28,20 @@
  */
 fm_status culling_check(const fm_method_desc *method, const fm_settings *settings, uint32_t feed,
                         fm_error *err);
+
+/* How a method is to run. All borrowed. */
+typedef struct fm_culling_desc {
+    const fm_settings *settings;
+    const fm_choice *choices; /* of the method's options: they size its buffers */
+    size_t choice_count;
+    uint32_t n;    /* most fragments of any pixel: some buffers have a place for each */
+    uint32_t feed; /* one FM_FEED_* */
+} fm_culling_desc;
+
 /* The method as settings want it: its copy, or transformed. Borrows from the method. Fails as
  * culling_check. */
 fm_status culling_apply(fm_method_desc *culled, const fm_method_desc *method,
-                        const fm_settings *settings, uint32_t feed, fm_error *err);
+                        const fm_culling_desc *desc, fm_error *err);
 
 /* Of a method that culling_apply made. */
 bool culling_is_applied(const fm_method_desc *method);

@@ -7,10 +7,8 @@
 static const char *workload_option(const fm_workload *workload, const char *name)
 {
     const fm_instance *instance = workload->runner;
-    for (int i = 0; i < FM_MAX_OPTIONS && instance->method->options[i].name != NULL; i++)
-        if (strcmp(instance->method->options[i].name, name) == 0)
-            return option_value(instance, &instance->method->options[i]);
-    return NULL;
+    return option_chosen(instance->method, name, instance->desc.choices,
+                         instance->desc.choice_count);
 }
 
 static const struct feature_words {
@@ -89,20 +87,6 @@ static void name_slots(fm_instance *instance)
         (fm_slot){ .name = "fm_locks", .type = "uint", .in_table = true, .table_index = line };
 }
 
-static void count_parts(fm_instance *instance)
-{
-    const fm_method_desc *method = instance->method;
-    while (instance->pass_count < FM_MAX_PASSES &&
-           method->passes[instance->pass_count].name != NULL)
-        instance->pass_count++;
-    while (instance->resource_count < FM_MAX_RESOURCES &&
-           method->resources[instance->resource_count].name != NULL)
-        instance->resource_count++;
-    while (instance->total_count < FM_MAX_TOTALS &&
-           method->totals[instance->total_count].name != NULL)
-        instance->total_count++;
-}
-
 static void fill_workload(fm_instance *instance, const fm_instance_desc *desc)
 {
     const fm_scene *scene = desc->stage->scene;
@@ -135,7 +119,9 @@ fm_status instance_create(fm_instance **out, const fm_instance_desc *desc, fm_er
     instance->device = desc->stage->device;
     instance->is_spin_locked = any_exclusive(desc->method) && desc->settings->lock == FM_LOCK_SPIN;
     instance->emits_back = (desc->method->traits & FM_TRAIT_EMITS_BACK) != 0;
-    count_parts(instance);
+    instance->pass_count = pass_count(desc->method);
+    instance->resource_count = resource_count(desc->method);
+    instance->total_count = total_count(desc->method);
     fill_workload(instance, desc);
     name_slots(instance);
     fm_status status = check_device(instance, err);

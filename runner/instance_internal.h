@@ -102,7 +102,6 @@ static inline uint32_t pass_lanes(const fm_pass *pass)
 }
 fm_status passes_create(fm_instance *instance, fm_error *err);
 void passes_destroy(fm_instance *instance);
-const char *option_value(const fm_instance *instance, const fm_option *option);
 /* What the scene pass draws. */
 fm_geometry pass_geometry(const fm_instance *instance, const fm_pass *pass);
 

@@ -14,14 +14,6 @@ static bool is_drawn(const fm_instance *instance, const fm_pass *pass)
             instance->desc.settings->full_screen == FM_FULL_SCREEN_FRAGMENT);
 }
 
-const char *option_value(const fm_instance *instance, const fm_option *option)
-{
-    for (size_t i = 0; i < instance->desc.choice_count; i++)
-        if (strcmp(instance->desc.choices[i].name, option->name) == 0)
-            return instance->desc.choices[i].value;
-    return option->values[0];
-}
-
 static bool is_flat(const fm_instance *instance, const fm_pass *pass)
 {
     if (!pass->flat_tessellation || pass->flat_option == NULL)

@@ -111,7 +111,8 @@ static void define_all(fm_text *text, const fm_instance *instance, const fm_pass
     }
     for (int i = 0; i < FM_MAX_OPTIONS && instance->method->options[i].name != NULL; i++)
         define_option(text, &instance->method->options[i],
-                      option_value(instance, &instance->method->options[i]));
+                      option_chosen(instance->method, instance->method->options[i].name,
+                                    instance->desc.choices, instance->desc.choice_count));
 }
 
 /* ---- sources ---- */

@@ -5,14 +5,10 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "descriptor.h"
 #include "error.h"
 #include "plugin.h"
 #include "settings.h"
-
-/* One chosen value of a method's own option. */
-typedef struct fm_choice {
-    char name[64], value[64];
-} fm_choice;
 
 /* One row of the summary. */
 typedef struct fm_case {

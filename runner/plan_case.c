@@ -37,22 +37,6 @@ const char *feed_name(uint32_t feed)
     return "none";
 }
 
-const fm_option *option_find(const fm_method_desc *method, const char *name)
-{
-    for (size_t i = 0; i < FM_MAX_OPTIONS && method->options[i].name != NULL; i++)
-        if (strcmp(method->options[i].name, name) == 0)
-            return &method->options[i];
-    return NULL;
-}
-
-bool option_has_value(const fm_option *option, const char *value)
-{
-    for (size_t i = 0; i < FM_MAX_OPTION_VALUES && option->values[i] != NULL; i++)
-        if (strcmp(option->values[i], value) == 0)
-            return true;
-    return false;
-}
-
 static const char *sweep_value(const fm_plan_point *point, size_t i)
 {
     return point->selection->sweeps[i].values.items[point->values[i]];

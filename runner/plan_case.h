@@ -25,8 +25,4 @@ typedef struct fm_plan_point {
 /* FM_INVALID: the point's keys contradict each other. */
 fm_status plan_case_make(fm_case *made, const fm_plan_point *point, fm_error *err);
 
-/* The method's option of that name, or NULL. */
-const fm_option *option_find(const fm_method_desc *method, const char *name);
-bool option_has_value(const fm_option *option, const char *value);
-
 #endif

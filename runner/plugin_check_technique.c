@@ -1,9 +1,9 @@
+#include "descriptor.h"
 #include "fragmark/technique.h"
 
 #include <inttypes.h>
 #include <string.h>
 
-#include "plan_case.h"
 #include "plugin_check.h"
 
 static fm_status check_alone(const fm_checked_method *check, fm_error *err)

@@ -2,8 +2,8 @@
 #ifndef FM_TECHNIQUE_H
 #define FM_TECHNIQUE_H
 
+#include "descriptor.h"
 #include "fragmark/technique.h"
-#include "plan.h"
 
 /* FM_PART_*: what the technique of a checked method asks for, with what these choices add. Options
  * that are not chosen have their first value. */

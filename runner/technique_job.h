@@ -16,6 +16,7 @@
 
 #include <jansson.h>
 
+#include "settings.h"
 #include "technique.h"
 
 typedef struct fm_technique_job {

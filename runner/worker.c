@@ -273,6 +273,16 @@ static fm_status measure(launch_job *job)
     return measure_case(&job->measurement, &desc, &job->error);
 }
 
+static fm_status cull(launch_job *job)
+{
+    const fm_culling_desc desc = { .settings = &job->settings,
+                                   .choices = job->choices,
+                                   .choice_count = job->choice_count,
+                                   .n = job->stage->n,
+                                   .feed = job->feed };
+    return culling_apply(&job->desc, job->method->method, &desc, &job->error);
+}
+
 static fm_status measure_job(launch_job *job)
 {
     fm_status status = open_plugins(job);
@@ -285,13 +295,12 @@ static fm_status measure_job(launch_job *job)
     if (status == FM_OK)
         status = open_scene(job);
     if (status == FM_OK)
-        status =
-            culling_apply(&job->desc, job->method->method, &job->settings, job->feed, &job->error);
-    if (status == FM_OK)
         status = truth_open(&job->truth, text_of(job, "truth"), &job->error);
     if (status == FM_OK)
         status =
             stage_create(&job->stage, job->device, job->scene, job->truth, job->feed, &job->error);
+    if (status == FM_OK)
+        status = cull(job);
     if (status == FM_OK) {
         snprintf(job->hull, sizeof job->hull, "%s.hull", text_of(job, "truth"));
         job->stage->hull_cache = job->hull;

@@ -56,7 +56,8 @@ static fm_method_desc applied(const char *const *texts)
     fm_error err = { .message = "" };
     const fm_method_desc method = make_method();
     const fm_settings settings = make_settings(texts);
-    if (culling_apply(&culled, &method, &settings, FM_FEED_RASTER, &err) != FM_OK)
+    const fm_culling_desc desc = { .settings = &settings, .feed = FM_FEED_RASTER };
+    if (culling_apply(&culled, &method, &desc, &err) != FM_OK)
         fail_msg("%s", err.message);
     return culled;
 }
@@ -123,6 +124,49 @@ static void the_map_lies_in_the_largest_buffer_if_asked(void **state)
     assert_int_equal(shared.passes[0].kind, FM_PASS_PIXELS); /* clears its part alone */
 }
 
+/* The method's two scene passes without depth, and a target of many layers, which is drawn into its
+ * first. */
+static void each_scene_pass_tests_for_itself(void **state)
+{
+    (void)state;
+    fm_method_desc culled, method = make_method();
+    const fm_settings settings = make_settings(NULL);
+    const fm_culling_desc desc = { .settings = &settings, .feed = FM_FEED_RASTER };
+    method.resources[2].samples_per_k = 0;
+    method.resources[2].layers = 8;
+    assert_int_equal(culling_apply(&culled, &method, &desc, NULL), FM_OK);
+    for (size_t i = 5; i <= 6; i++) {
+        assert_string_equal(culled.passes[i].state.depth_stencil, "fm_cull_boundary");
+        assert_true(culled.passes[i].state.early_tests);
+        assert_false(culled.passes[i].state.depth_write);
+        assert_int_equal(culled.passes[i].state.depth_stencil_load, FM_LOAD_KEEP);
+    }
+}
+
+/* What is largest depends on options and on the scene: 8 bytes a pixel for each of 4 slots or of 16
+ * fragments, beside 24. */
+static void the_largest_buffer_is_as_options_and_n_make_it(void **state)
+{
+    (void)state;
+    const fm_settings settings = make_settings(TEXTS("cull_memory", "shared"));
+    const fm_choice one = { "slots", "1" };
+    fm_method_desc culled, method = make_method();
+    fm_culling_desc desc = { .settings = &settings, .feed = FM_FEED_RASTER };
+    method.options[0] = (fm_option){ .name = "slots", .values = { "4", "1" } };
+    method.resources[0].extent = (fm_extent){ .per_pixel = 6 };
+    method.resources[1].extent = (fm_extent){ .per_pixel_option = 1, .option = "slots" };
+    assert_int_equal(culling_apply(&culled, &method, &desc, NULL), FM_OK);
+    assert_string_equal(culled.resources[6].shares, "fragments");
+    desc.choices = &one;
+    desc.choice_count = 1;
+    assert_int_equal(culling_apply(&culled, &method, &desc, NULL), FM_OK);
+    assert_string_equal(culled.resources[6].shares, "counters");
+    method.resources[1].extent = (fm_extent){ .per_pixel_n = 1 };
+    desc.n = 16;
+    assert_int_equal(culling_apply(&culled, &method, &desc, NULL), FM_OK);
+    assert_string_equal(culled.resources[6].shares, "fragments");
+}
+
 /* A hull's back faces lie behind the boundary, and are no fragments. */
 static void passes_over_a_cover_are_left_alone(void **state)
 {
@@ -139,7 +183,8 @@ static void refuses(const fm_method_desc *method, const char *const *texts, uint
     fm_method_desc culled;
     fm_error err = { .message = "" };
     const fm_settings settings = make_settings(texts);
-    assert_int_equal(culling_apply(&culled, method, &settings, feed, &err), FM_UNSUPPORTED);
+    const fm_culling_desc desc = { .settings = &settings, .feed = feed };
+    assert_int_equal(culling_apply(&culled, method, &desc, &err), FM_UNSUPPORTED);
     if (strstr(err.message, message) == NULL)
         fail_msg("'%s' is not in: %s", message, err.message);
 }
@@ -172,6 +217,8 @@ int main(void)
         cmocka_unit_test(passes_that_own_depth_or_samples_test_in_the_shader),
         cmocka_unit_test(passes_over_a_cover_are_left_alone),
         cmocka_unit_test(the_map_lies_in_the_largest_buffer_if_asked),
+        cmocka_unit_test(each_scene_pass_tests_for_itself),
+        cmocka_unit_test(the_largest_buffer_is_as_options_and_n_make_it),
         cmocka_unit_test(what_cannot_be_culled_is_refused_with_the_reason),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -11,14 +11,50 @@
 void kit_open(scene_kit *kit, fm_device *device)
 {
     fm_error err = { .message = "" };
-    kit->device = device;
+    *kit = (scene_kit){ .device = device };
     if (plugin_list_open(&kit->plugins, NULL, &err) != FM_OK)
         fail_msg("%s", err.message);
 }
 
 void kit_close(scene_kit *kit)
 {
+    if (kit->broken[0] != '\0') {
+        char command[64];
+        snprintf(command, sizeof command, "rm -r '%s'", kit->broken);
+        assert_int_equal(system(command), 0);
+    }
     plugin_list_close(&kit->plugins);
+}
+
+static void replace_once(const char *path, const kit_mistake *mistake)
+{
+    enum { LIMIT_BYTES = 1 << 20 };
+    char *bytes = NULL;
+    size_t count;
+    fm_text edited = { .bytes = NULL };
+    assert_int_equal(text_read_file(&bytes, &count, path, LIMIT_BYTES, NULL), FM_OK);
+    const char *found = strstr(bytes, mistake->right);
+    if (found == NULL)
+        fail_msg("%s: no '%s' to break", mistake->file, mistake->right);
+    text_add(&edited, "%.*s%s%s", (int)(found - bytes), bytes, mistake->wrong,
+             found + strlen(mistake->right));
+    assert_false(edited.failed);
+    assert_int_equal(text_write_file(path, edited.bytes, edited.length, NULL), FM_OK);
+    text_free(&edited);
+    free(bytes);
+}
+
+void kit_break(scene_kit *kit, const kit_mistake *mistake)
+{
+    char path[FM_PATH_MAX_BYTES], command[FM_PATH_MAX_BYTES + 64];
+    snprintf(kit->broken, sizeof kit->broken, "/tmp/fm-shaders-XXXXXX");
+    assert_non_null(mkdtemp(kit->broken));
+    snprintf(command, sizeof command, "cp -L '%s'/*.glsl '%s'", kit->plugins.common_folder,
+             kit->broken);
+    assert_int_equal(system(command), 0);
+    snprintf(path, sizeof path, "%s/%s", kit->broken, mistake->file);
+    replace_once(path, mistake);
+    snprintf(kit->plugins.common_folder, sizeof kit->plugins.common_folder, "%s", kit->broken);
 }
 
 const fm_method_desc *kit_method(const scene_kit *kit, size_t index)
@@ -80,24 +116,27 @@ static void apply(fm_settings *settings, fm_choice *choices, size_t *count, cons
     }
 }
 
-static void capture(fm_truth **truth, char path[32], const kit_scene *scene, uint32_t feed)
+/* The file is gone once it is open: a test that is killed leaves nothing behind. */
+static void capture(fm_truth **truth, const kit_scene *scene, uint32_t feed)
 {
     fm_error err = { .message = "" };
-    snprintf(path, 32, "/tmp/fm-truth-XXXXXX");
+    char path[] = "/tmp/fm-truth-XXXXXX";
     const int fd = mkstemp(path);
     assert_true(fd >= 0);
     close(fd);
     if (truth_capture(path, scene->kit->device, scene->scene, feed,
                       scene->kit->plugins.common_folder, &err) != FM_OK)
         fail_msg("%s", err.message);
-    if (truth_open(truth, path, &err) != FM_OK)
+    const fm_status status = truth_open(truth, path, &err);
+    unlink(path);
+    if (status != FM_OK)
         fail_msg("%s", err.message);
 }
 
 void kit_scene_take(kit_scene *scene, scene_kit *kit, fm_scene *made)
 {
     *scene = (kit_scene){ .kit = kit, .scene = made };
-    capture(&scene->truth, scene->truth_path, scene, FM_FEED_RASTER);
+    capture(&scene->truth, scene, FM_FEED_RASTER);
 }
 
 const fm_truth *kit_truth(kit_scene *scene, uint32_t feed)
@@ -108,7 +147,7 @@ const fm_truth *kit_truth(kit_scene *scene, uint32_t feed)
     if (scene->triangles == NULL && scene_hold(scene->scene, &err) != FM_OK)
         fail_msg("%s", err.message);
     if (scene->triangles == NULL)
-        capture(&scene->triangles, scene->triangles_path, scene, feed);
+        capture(&scene->triangles, scene, feed);
     return scene->triangles;
 }
 
@@ -129,9 +168,6 @@ void kit_scene_close(kit_scene *scene)
     truth_close(scene->truth);
     truth_close(scene->triangles);
     scene_destroy(scene->scene);
-    unlink(scene->truth_path);
-    if (scene->triangles_path[0] != '\0')
-        unlink(scene->triangles_path);
 }
 
 bool kit_wants_all(void)
@@ -197,13 +233,20 @@ static fm_status ask(asked_case *asked, kit_scene *scene, const kit_way *way, fm
     asked->desc.choice_count = choice_count;
     asked->desc.method = &asked->method;
     fm_status status =
-        culling_apply(&asked->method, entry->plugin->method, &asked->settings, way->feed, err);
+        stage_create(&asked->stage, scene->kit->device, scene->scene, truth, way->feed, err);
     if (status != FM_OK)
         return status;
-    status = stage_create(&asked->stage, scene->kit->device, scene->scene, truth, way->feed, err);
-    if (status == FM_OK && scene->told_n != 0)
+    if (scene->told_n != 0)
         asked->stage->n = scene->told_n;
     asked->desc.stage = asked->stage;
+    const fm_culling_desc culling = { .settings = &asked->settings,
+                                      .choices = asked->choices,
+                                      .choice_count = choice_count,
+                                      .n = asked->stage->n,
+                                      .feed = way->feed };
+    status = culling_apply(&asked->method, entry->plugin->method, &culling, err);
+    if (status == FM_OK && scene->edit != NULL)
+        scene->edit(&asked->method);
     return status;
 }
 

@@ -13,6 +13,7 @@
 typedef struct scene_kit {
     fm_device *device; /* borrowed */
     fm_plugin_list plugins;
+    char broken[32]; /* folder of kit_break; empty: none */
 } scene_kit;
 
 /* A scene and what the device rasterises of it. */
@@ -20,11 +21,10 @@ typedef struct kit_scene {
     scene_kit *kit;
     fm_scene *scene;
     fm_truth *truth;
-    char truth_path[32];
-    fm_truth
-        *triangles; /* the feed triangles' own; NULL until a method was measured on that feed */
-    char triangles_path[32];
-    uint32_t told_n; /* the most fragments of a pixel as methods are told; 0: as it is */
+    fm_truth *triangles; /* of that feed; NULL until a method was measured on it */
+    uint32_t told_n;     /* the most fragments of a pixel as methods are told; 0: as it is */
+    void (*edit)(fm_method_desc *); /* changes methods, with culling if asked for, before they run;
+                                       NULL: as they are */
 } kit_scene;
 
 /* Every test runs on a fresh device of each kind; *state is the device. */
@@ -36,6 +36,13 @@ typedef struct kit_scene {
 
 void kit_open(scene_kit *kit, fm_device *device);
 void kit_close(scene_kit *kit);
+
+/* A mistake in one of the runner's own GLSL files, as a test for tests: this text in its place. */
+typedef struct kit_mistake {
+    const char *file, *right, *wrong;
+} kit_mistake;
+/* From here on the kit's methods are compiled with a copy of the files that has it. */
+void kit_break(scene_kit *kit, const kit_mistake *mistake);
 
 /* The plugin's descriptor. Fails the test if the plugin was refused. */
 const fm_method_desc *kit_method(const scene_kit *kit, size_t index);
