@@ -105,25 +105,33 @@ static void descending_order_takes_n_locks_a_pixel(void **state)
 /* 33 layers from 1/64 to 33/64, farthest first: with one word each has a bucket of its own, but for
  * the last two. The far edge of the fourth is where the fifth begins, which arrives too, for the
  * edge is rounded up; all others do not. */
-static void expect_arrivals(void **state, const char *method, const char *texts, uint64_t arrived)
+static void expect_arrivals_of(void **state, const kit_mistake *mistake, const kit_way *way,
+                               uint64_t arrived)
 {
     enum { LAYERS = 33 };
     unsigned depths[LAYERS];
     scene_kit kit;
     kit_scene scene;
     fm_measurement m;
-    const kit_way way = { method, FM_FEED_RASTER, texts };
     for (unsigned i = 0; i < LAYERS; i++)
         depths[i] = LAYERS - i;
     kit_open(&kit, device_of(state));
+    if (mistake != NULL)
+        kit_break(&kit, mistake);
     kit_scene_take(&scene, &kit, make_sequence(depths, LAYERS));
-    assert_true(kit_measure(&m, &scene, &way));
+    assert_true(kit_measure(&m, &scene, way));
     assert_int_equal(m.arrived, PIXELS_COVERED * arrived);
     assert_int_equal(m.check.missing + m.check.extra + m.check.misordered + m.lost, 0);
     assert_int_equal(m.bytes_allocated, m.bytes_predicted);
     measurement_free(&m);
     kit_scene_close(&scene);
     kit_close(&kit);
+}
+
+static void expect_arrivals(void **state, const char *method, const char *texts, uint64_t arrived)
+{
+    const kit_way way = { method, FM_FEED_RASTER, texts };
+    expect_arrivals_of(state, NULL, &way, arrived);
 }
 
 #define OCCUPANCY "k=4 culling=occupancy cull_words=1 "
@@ -147,6 +155,18 @@ static void tests_in_the_shader_cull_the_same(void **state)
 static void a_kth_bucket_that_is_the_last_culls_nothing(void **state)
 {
     expect_arrivals(state, "kplus-array", "k=32 culling=occupancy cull_words=1", 33);
+}
+
+/* A body that begins in the middle of the scene, at 17/64: what lies before it is in the first
+ * bucket with the layer there, and three more buckets are the next three layers'. None of the k
+ * nearest is lost: the lemma does not depend on the body. Uncounted, they would leave one layer
+ * more. */
+static void what_lies_before_the_range_is_in_its_first_bucket(void **state)
+{
+    const kit_mistake late = { "cull_range.glsl", "vec2(-depth, depth)",
+                               "vec2(-max(depth, 17.0 / 64.0), depth)" };
+    const kit_way way = { "kplus-array", FM_FEED_RASTER, OCCUPANCY "cull_range=exact" };
+    expect_arrivals_of(state, &late, &way, 20);
 }
 
 /* Without its own test the method takes a lock for each fragment that arrives. */
@@ -185,6 +205,7 @@ int main(void)
         { "tests_in_the_shader_cull_the_same [vulkan, validated]",
           tests_in_the_shader_cull_the_same, open_validated, close_opened, NULL },
         ON_VULKAN_AND_OSMESA(a_kth_bucket_that_is_the_last_culls_nothing),
+        ON_VULKAN_AND_OSMESA(what_lies_before_the_range_is_in_its_first_bucket),
         ON_VULKAN_AND_OSMESA(own_cull_off_takes_a_lock_for_each_arrival),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -2,8 +2,8 @@
  * 500 random scenes: layers of all kinds of depths, and triangles seen by cameras that stand
  * before, near and inside them, with planes that cut them. FRAGMARK_TEST_SLICE=3/100 runs the third
  * hundredth; scene i alone is slice (i + 1)/500. And broken maps, which must be caught. */
+#include <math.h>
 #include <stdio.h>
-#include <unistd.h>
 
 #include "camera.h"
 #include "random_kit.h"
@@ -222,78 +222,173 @@ static void the_k_nearest_always_pass(void **state)
 
 /* ---- broken maps ---- */
 
-/* Copies the runner's GLSL with one text of one file replaced. */
-static void copy_shaders(char folder[FM_PATH_MAX_BYTES], const char *from, const char *const *edit)
-{
-    char command[8 * FM_PATH_MAX_BYTES];
-    snprintf(folder, FM_PATH_MAX_BYTES, "/tmp/fm-shaders-XXXXXX");
-    assert_non_null(mkdtemp(folder));
-    snprintf(command, sizeof command,
-             "cp -L %s/*.glsl %s/ && grep -qF '%s' %s/%s && sed -i 's|%s|%s|' %s/%s", from, folder,
-             edit[1], folder, edit[0], edit[1], edit[2], folder, edit[0]);
-    if (system(command) != 0)
-        fail_msg("%s: no '%s' to break", edit[0], edit[1]);
-}
+/* What is broken: a text of a shader, or (file NULL) the method with its culling. */
+typedef struct broken_map {
+    kit_mistake mistake;
+    void (*edit)(fm_method_desc *);
+    const char *texts; /* where it shows; NULL: as scenes draw them */
+} broken_map;
 
-static void remove_shaders(const char *folder)
-{
-    char command[FM_PATH_MAX_BYTES + 16];
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    assert_int_equal(system(command), 0);
-}
-
-/* Scenes until one shows it. */
-static void expect_caught(void **state, const char *const *edit)
+/* Whether one of the scenes shows it; they end there. */
+static bool is_caught(void **state, const broken_map *broken)
 {
     scene_kit kit;
     outcomes seen = { .measured = 0 };
-    char folder[FM_PATH_MAX_BYTES], texts[256];
+    char texts[512];
     kit_open(&kit, device_of(state));
-    copy_shaders(folder, kit.plugins.common_folder, edit);
-    snprintf(kit.plugins.common_folder, sizeof kit.plugins.common_folder, "%s", folder);
+    if (broken->mistake.file != NULL)
+        kit_break(&kit, &broken->mistake);
     for (uint32_t number = 0; number < BROKEN_SCENES && seen.failed == 0; number++) {
         drawn_scene drawn;
         const kit_way way = { "kplus-array", FM_FEED_RASTER, texts };
         open_scene(&drawn, &kit, number);
         draw_texts(texts, &drawn);
-        measure_one(&seen, &drawn, &way, true);
+        if (broken->texts != NULL)
+            strcat(strcat(texts, " "), broken->texts); /* the last text of a key counts */
+        drawn.scene.edit = broken->edit;
+        measure_one(&seen, &drawn, &way, broken->mistake.file != NULL || broken->edit != NULL);
         kit_scene_close(&drawn.scene);
     }
-    remove_shaders(folder);
     kit_close(&kit);
-    print_message("caught by scene %u\n", seen.measured - 1);
-    assert_int_equal(seen.failed, 1);
+    print_message("%u scenes, %u caught it\n", seen.measured, seen.failed);
+    return seen.failed > 0;
+}
+
+static void expect_caught(void **state, const broken_map *broken)
+{
+    assert_true(is_caught(state, broken));
+}
+
+/* What the mistakes below are measured against. */
+static void nothing_is_caught_where_nothing_is_broken(void **state)
+{
+    assert_false(is_caught(state, &(broken_map){ .texts = "cull_words=64 cull_test=early" }));
+    assert_false(is_caught(state, &(broken_map){ .texts = "cull_words=64 cull_test=shader" }));
 }
 
 static void an_edge_one_bucket_too_near_is_caught(void **state)
 {
-    static const char *const edit[] = { "cull_bucket.glsl", "float(j + 1u) /", "float(j) /" };
-    expect_caught(state, edit);
+    expect_caught(
+        state, &(broken_map){ .mistake = { "cull_bucket.glsl", "float(j + 1u) /", "float(j) /" } });
+}
+
+/* Near, far, and between them a depth that is beyond the far edge of its bucket if the edge has no
+ * margin: as cull_bucket.glsl counts, with 2048 buckets. One of 300 is. */
+static void draw_edge(float depths[3], uint64_t *state)
+{
+    enum { BUCKETS = 2048, DRAWN_MAX = 100000 };
+    for (int i = 0; i < DRAWN_MAX; i++) {
+        const float near = draw_real(state, 0.0f, 0.5f), far = draw_real(state, 0.6f, 1.0f);
+        const float bucket = (float)draw_in(state, 0, BUCKETS - 2);
+        const float edge = near + (far - near) * ((bucket + 1.0f) / BUCKETS);
+        const float depth = nextafterf(edge, 1.0f);
+        depths[0] = near;
+        depths[1] = depth;
+        depths[2] = far;
+        if (floorf((depth - near) * (BUCKETS / (far - near))) == bucket)
+            return;
+    }
+    fail_msg("no depth is beyond its bucket's edge");
+}
+
+/* Three fragments a pixel: the ends of its range, and between them one that a narrow margin saves.
+ */
+static fm_scene *make_edges(uint32_t side)
+{
+    uint64_t state = 1;
+    fm_scene *scene = kit_quads_create(side, side, 3 * side * side);
+    for (uint32_t i = 0; i < side * side; i++) {
+        const fm_rect px = { i % side, i / side, i % side + 1, i / side + 1 };
+        float depths[3];
+        draw_edge(depths, &state);
+        for (uint32_t j = 0; j < 3; j++)
+            kit_quad(scene, 3 * i + j, px, depths[j], 0x40000000u + j);
+    }
+    return scene;
+}
+
+static unsigned lost_at_edges(void **state, const kit_mistake *mistake)
+{
+    const kit_way way = { "kplus-array", FM_FEED_RASTER,
+                          "k=2 culling=occupancy cull_words=64 cull_range=exact" };
+    scene_kit kit;
+    drawn_scene drawn = { .number = 0 };
+    outcomes seen = { .measured = 0 };
+    kit_open(&kit, device_of(state));
+    if (mistake != NULL)
+        kit_break(&kit, mistake);
+    kit_scene_take(&drawn.scene, &kit, make_edges(16));
+    measure_one(&seen, &drawn, &way, false);
+    kit_scene_close(&drawn.scene);
+    kit_close(&kit);
+    assert_true(seen.arrived < seen.generated);
+    return seen.failed;
+}
+
+static void an_edge_without_margin_is_caught(void **state)
+{
+    const kit_mistake mistake = { "cull_bucket.glsl", "(part + part * margin)", "part" };
+    assert_int_equal(lost_at_edges(state, NULL), 0);
+    assert_int_equal(lost_at_edges(state, &mistake), 1);
 }
 
 /* Fragments behind the range are in the last bucket. */
 static void a_last_bucket_that_ends_is_caught(void **state)
 {
-    static const char *const edit[] = { "cull_bucket.glsl", "return 1.0;", "return far;" };
-    expect_caught(state, edit);
+    expect_caught(state,
+                  &(broken_map){ .mistake = { "cull_bucket.glsl", "return 1.0;", "return far;" } });
+}
+
+/* ... and not in the first, or in one between. */
+static void buckets_that_go_round_are_caught(void **state)
+{
+    expect_caught(state, &(broken_map){ .mistake = { "cull_bucket.glsl",
+                                                     "clamp(at, 0.0, float(CULL_BUCKETS - 1u))",
+                                                     "mod(max(at, 0.0), float(CULL_BUCKETS))" } });
 }
 
 static void a_count_of_k_less_one_is_caught(void **state)
 {
-    static const char *const edit[] = { "cull_count.glsl", "wanted_bits = uint(K)",
-                                        "wanted_bits = uint(max(K - 1, 1))" };
-    expect_caught(state, edit);
+    expect_caught(state, &(broken_map){ .mistake = { "cull_count.glsl", "wanted_bits = uint(K)",
+                                                     "wanted_bits = uint(max(K - 1, 1))" } });
 }
+
+static void test_less(fm_method_desc *method)
+{
+    for (size_t i = 0; i < pass_count(method); i++)
+        if (method->passes[i].state.depth_test == FM_COMPARE_LESS_EQUAL)
+            method->passes[i].state.depth_test = FM_COMPARE_LESS;
+}
+
+/* A boundary of 1 culls nothing, a fragment at 1 included. */
+static void an_early_test_of_less_is_caught(void **state)
+{
+    expect_caught(state, &(broken_map){ .edit = test_less, .texts = "cull_test=early" });
+}
+
+static void a_shader_test_of_less_is_caught(void **state)
+{
+    expect_caught(state, &(broken_map){ .mistake = { "raster_main.glsl", "depth <=", "depth <" },
+                                        .texts = "cull_test=shader" });
+}
+
+#define ON_VULKAN(test)                                                                            \
+    {                                                                                              \
+#test, test, open_vulkan, close_opened, NULL                                               \
+    }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         ON_VULKAN_AND_OSMESA(the_k_nearest_always_pass),
-        cmocka_unit_test_setup_teardown(an_edge_one_bucket_too_near_is_caught, open_vulkan,
-                                        close_opened),
-        cmocka_unit_test_setup_teardown(a_last_bucket_that_ends_is_caught, open_vulkan,
-                                        close_opened),
-        cmocka_unit_test_setup_teardown(a_count_of_k_less_one_is_caught, open_vulkan, close_opened),
+        ON_VULKAN(nothing_is_caught_where_nothing_is_broken),
+        ON_VULKAN(an_edge_one_bucket_too_near_is_caught),
+        ON_VULKAN(an_edge_without_margin_is_caught),
+        ON_VULKAN(a_last_bucket_that_ends_is_caught),
+        ON_VULKAN(buckets_that_go_round_are_caught),
+        ON_VULKAN(a_count_of_k_less_one_is_caught),
+        ON_VULKAN(an_early_test_of_less_is_caught),
+        ON_VULKAN(a_shader_test_of_less_is_caught),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

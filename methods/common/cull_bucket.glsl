@@ -4,7 +4,8 @@
 //   bucket j holds near + (far - near) j / S <= depth < near + (far - near) (j + 1) / S.
 // What rounding may do: the quotients, products and sums below are each within 2.5 ulp (as Vulkan
 // guarantees), together a part of 2^-20. The fill's bucket never falls with depth, so it is enough that a
-// bucket's far edge, as the count gives it, lies behind all depths that the fill gives that bucket.
+// bucket's far edge, as the count gives it, lies behind all depths that the fill gives that bucket. The last
+// sum needs no margin: where it is exactly at a depth or behind it, so is what it is rounded to.
 const uint CULL_BUCKETS = 32u * FM_CULL_WORDS;
 const float CULL_LEAST_WIDTH = 8.673617379884035e-19; // 2^-60: quotients stay finite
 
@@ -37,5 +38,5 @@ float cull_far_edge(uint j, float near, float far)
         return 1.0;
     precise float part = float(j + 1u) / float(CULL_BUCKETS);
     precise float edge = near + (far - near) * (part + part * margin);
-    return min(uintBitsToFloat(floatBitsToUint(edge) + 2u), 1.0); // the sum's rounding
+    return min(edge, 1.0);
 }
