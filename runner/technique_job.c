@@ -393,9 +393,9 @@ static fm_status start(run_state *run, fm_error *err)
     if (status != FM_OK)
         return status;
     const uint32_t side = FM_TILE_SIDE;
-    const uint32_t tiles = ((run->sequence->width_px + side - 1) / side) *
-                           ((run->sequence->height_px + side - 1) / side);
-    status = cycles_create(&run->cycles, &run->table, tiles, err);
+    const uint32_t across = (run->sequence->width_px + side - 1) / side;
+    const uint32_t tiles = across * ((run->sequence->height_px + side - 1) / side);
+    status = cycles_create(&run->cycles, &run->table, tiles, across, err);
     if (status != FM_OK)
         return status;
     if (method != NULL)

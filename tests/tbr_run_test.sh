@@ -37,8 +37,12 @@ awk -F, '
             if (value[c, "tiles_rendered"] + value[c, "tiles_skipped"] != 140) exit 1
             time = value[c, "cycles.geometry"] + value[c, "cycles.raster"]
             if (time <= 0 || (time / value[c, "cycles"] - 1) ^ 2 > 1e-12) exit 2
+            both = time / (value[c, "cycles.geometry"] + value[c, "cycles.raster_b"])
+            if (both > most) most = both
+            if (n == 1 || both < least) least = both
             if ((parts[c] / value[c, "energy_nj"] - 1) ^ 2 > 1e-12) exit 3
         }
+        if (most / least > 1.02) exit 5 # the two forms of the cycle model, as ratios of techniques
         exit n == 18 ? 0 : 4
     }' "$work/out/samples.csv" || fail "sums of samples.csv: $?"
 

@@ -342,7 +342,7 @@ static void cycles_of_one_tile_are_as_on_paper(void **state)
     fm_error err = { 0 };
     fm_frame_builder builder = { 0 };
     assert_int_equal(model_table_read(&table, "", &err), FM_OK);
-    assert_int_equal(cycles_create(&model, &table, 1, &err), FM_OK);
+    assert_int_equal(cycles_create(&model, &table, 1, 1, &err), FM_OK);
     const tbr_desc desc = { .width_px = 16,
                             .height_px = 16,
                             .threads = 1,
@@ -371,6 +371,28 @@ static void cycles_of_one_tile_are_as_on_paper(void **state)
     cycles_destroy(model);
 }
 
+/* 64 quads that are shaded, then 64 that are not: rasterising these takes no time of its own, since
+ * what is hidden waits for no fragment before it. */
+static void hidden_quads_do_not_wait_for_shading_in_form_b(void **state)
+{
+    (void)state;
+    model_table table;
+    cycles *model = NULL;
+    fm_error err = { 0 };
+    fm_draw_call call = kit_draw();
+    const tbr_work work[] = { { 0, 64, 64, false }, { 0, 64, 0, false } };
+    const fm_frame frame = { .draws = &call, .draw_count = 1 };
+    const tbr_tile_work tile = { .frame = &frame, .work = work, .count = 2, .flush_bytes = 1024 };
+    assert_int_equal(model_table_read(&table, "", &err), FM_OK);
+    assert_int_equal(cycles_create(&model, &table, 1, 1, &err), FM_OK);
+    cycles_rendered(model, &tile);
+    const cycles_frame result = cycles_of_frame(model, &(tbr_counters){ 0 });
+    /* Before the first quad is shaded it is fetched (49 / 16 cycles) and set up (4). */
+    assert_true(fabs(result.raster_b - (result.stages[3] + 49.0 / 16 + 4)) < exact);
+    assert_true(fabs(result.raster[CYCLES_NOMINAL] - result.stages[3]) < exact);
+    cycles_destroy(model);
+}
+
 /* 16 places, then each pair waits: n pairs at c cycles take n c, whatever the builder could do. */
 static void signature_queue_stalls_the_list_builder(void **state)
 {
@@ -387,7 +409,7 @@ static void signature_queue_stalls_the_list_builder(void **state)
     const tbr_counters counters = { .pairs = PAIRS };
     memset(is_signed, 1, sizeof is_signed);
     assert_int_equal(model_table_read(&table, "accumulate_cycles=5", &err), FM_OK);
-    assert_int_equal(cycles_create(&model, &table, 1, &err), FM_OK);
+    assert_int_equal(cycles_create(&model, &table, 1, 1, &err), FM_OK);
     tbr_geometry geometry = { &frame, 1, &pairs, &of_draw, &is_prepassed, is_signed };
     cycles_binned(model, &geometry, &counters);
     /* 3 lines, 18 cycles of CRC, then 1 000 pairs of 5. */
@@ -418,6 +440,7 @@ int main(void)
         cmocka_unit_test(nothing_costs_nothing_but_time),
         cmocka_unit_test(model_table_takes_overrides_and_names_the_nearest),
         cmocka_unit_test(cycles_of_one_tile_are_as_on_paper),
+        cmocka_unit_test(hidden_quads_do_not_wait_for_shading_in_form_b),
         cmocka_unit_test(signature_queue_stalls_the_list_builder),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

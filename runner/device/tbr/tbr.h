@@ -55,7 +55,7 @@ typedef struct tbr_desc {
     bool no_vectors;               /* the portable build of the inner loop: tests */
     /* What models hear; NULL: nobody. Once after the geometry phase, with its counts ... */
     void (*binned)(void *context, const tbr_geometry *geometry, const tbr_counters *counters);
-    /* ... and, from the threads, once for each rendered tile. */
+    /* ... and, from the threads, once for each rendered tile; those of a row in order, by one. */
     void (*rendered)(void *context, const tbr_tile_work *work);
     void *context;
 } tbr_desc;

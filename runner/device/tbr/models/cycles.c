@@ -29,29 +29,47 @@ const cycles_variant_info cycles_variants[CYCLES_VARIANT_COUNT] = {
 /* A tile's own results; each is written by one thread. */
 typedef struct tile_cycles {
     double raster[CYCLES_VARIANT_COUNT];
-    double raster_b;
     double stages[STAGE_COUNT];
 } tile_cycles;
+
+/* Form B, in a row of tiles: when each stage is done with what it has been given. A stage that
+ * works on one primitive passes its quads on at once, and cannot be further ahead than the queue
+ * behind it holds; it goes on with the next tile, of whose buffers there are two. */
+typedef struct row_clock {
+    double fetched, rasterised, shaded, blended;
+    double left[MODEL_QUEUE_MAX]; /* when the last primitives left the rasteriser, by number */
+    uint32_t primitives;
+    double end, previous_end; /* of the last tile, and of the one before */
+    double scans;
+} row_clock;
 
 struct cycles {
     model_parameters p[CYCLES_VARIANT_COUNT];
     tile_cycles *tiles; /* [tile_count] */
     uint32_t tile_count;
+    row_clock *rows; /* each is written by one thread at a time */
+    uint32_t row_count, tiles_across;
     double spilled; /* of this frame's parameter buffer */
     double geometry[CYCLES_VARIANT_COUNT], signature_stall;
 };
 
-fm_status cycles_create(cycles **made, const model_table *table, uint32_t tile_count, fm_error *err)
+fm_status cycles_create(cycles **made, const model_table *table, uint32_t tile_count,
+                        uint32_t tiles_across, fm_error *err)
 {
+    const uint32_t row_count = (tile_count + tiles_across - 1) / tiles_across;
     cycles *of = calloc(1, sizeof *of);
     *made = NULL;
-    if (of != NULL)
+    if (of != NULL) {
         of->tiles = calloc(tile_count, sizeof *of->tiles);
-    if (of == NULL || of->tiles == NULL) {
+        of->rows = calloc(row_count, sizeof *of->rows);
+    }
+    if (of == NULL || of->tiles == NULL || of->rows == NULL) {
         cycles_destroy(of);
         return fm_fail(err, FM_NO_MEMORY, "no memory for the cycles of %u tiles", tile_count);
     }
     of->tile_count = tile_count;
+    of->row_count = row_count;
+    of->tiles_across = tiles_across;
     for (size_t i = 0; i < CYCLES_VARIANT_COUNT; i++) {
         const cycles_variant_info *info = &cycles_variants[i];
         of->p[i] = table->nominal;
@@ -66,8 +84,10 @@ fm_status cycles_create(cycles **made, const model_table *table, uint32_t tile_c
 
 void cycles_destroy(cycles *of)
 {
-    if (of != NULL)
-        free(of->tiles);
+    if (of == NULL)
+        return;
+    free(of->tiles);
+    free(of->rows);
     free(of);
 }
 
@@ -156,6 +176,7 @@ void cycles_binned(void *context, const tbr_geometry *geometry, const tbr_counte
     double stall = 0;
     of->spilled = cycles_spilled(&of->p[CYCLES_NOMINAL], counters);
     memset(of->tiles, 0, of->tile_count * sizeof *of->tiles);
+    memset(of->rows, 0, of->row_count * sizeof *of->rows);
     double stages[] = { (double)counters->vertex_lines, (double)counters->vertex_instructions_run,
                         (double)counters->primitives, memory_cycles(of, counters), 0 };
     for (size_t i = 0; i < CYCLES_VARIANT_COUNT; i++) {
@@ -229,21 +250,15 @@ static void fill_stages(double stages[STAGE_COUNT], const tile_sums *sums,
                      p->dram_bytes_per_cycle;
 }
 
-/* Form B: when each primitive leaves each stage. A stage that works on one primitive passes its
- * quads on at once, and cannot be further ahead than the queue behind it holds. */
-typedef struct stage_clocks {
-    double fetched, rasterised, shaded, blended;
-    double left[MODEL_QUEUE_MAX]; /* when the last primitives left the rasteriser, by number */
-} stage_clocks;
-
 static double later(double a, double b)
 {
     return a > b ? a : b;
 }
 
-static void follow(stage_clocks *clock, uint32_t index, const tbr_work *work,
-                   const fm_draw_call *draw, const model_parameters *p)
+static void follow(row_clock *clock, const tbr_work *work, const fm_draw_call *draw,
+                   const model_parameters *p)
 {
+    const uint32_t index = clock->primitives++;
     const uint32_t queue = (uint32_t)p->tile_queue;
     const double lines = ceil(draw->attribute_bytes / p->line_bytes) + 4 / p->line_bytes;
     const double shading =
@@ -258,21 +273,28 @@ static void follow(stage_clocks *clock, uint32_t index, const tbr_work *work,
     const double raster =
         p->setup_cycles + work->quads * later(1, interpolation_cycles(draw, work->is_prepass, p));
     const double first_quad = begin + p->setup_cycles;
-    if (work->shaded_quads > 0)
+    clock->rasterised = begin + raster;
+    if (work->shaded_quads > 0) {
         clock->shaded =
             later(later(clock->shaded, first_quad) + shading, begin + raster + per_quad);
-    clock->rasterised =
-        later(begin + raster, clock->shaded - p->fragment_queue * later(per_quad, 1e-9));
+        /* What is hidden waits for no place in the queue: it is rejected before. */
+        clock->rasterised = later(clock->rasterised, clock->shaded - p->fragment_queue * per_quad);
+    }
     clock->left[index % queue] = clock->rasterised;
     clock->blended = later(clock->blended + work->shaded_quads, clock->shaded);
 }
 
-static double follow_tile(const tbr_tile_work *tile, const model_parameters *p)
+/* A tile takes as long as memory needs for it, and waits for the buffer of the one before the last.
+ */
+static void follow_tile(row_clock *clock, const tbr_tile_work *tile, double memory_cycles_needed,
+                        const model_parameters *p)
 {
-    stage_clocks clock = { 0 };
+    clock->shaded = later(clock->shaded, clock->previous_end);
     for (uint32_t i = 0; i < tile->count; i++)
-        follow(&clock, i, &tile->work[i], &tile->frame->draws[tile->work[i].draw], p);
-    return later(clock.rasterised, clock.blended);
+        follow(clock, &tile->work[i], &tile->frame->draws[tile->work[i].draw], p);
+    clock->previous_end = clock->end;
+    clock->end = later(later(clock->rasterised, clock->blended), clock->end + memory_cycles_needed);
+    clock->scans += tile->scans ? p->scan_cycles : 0;
 }
 
 void cycles_rendered(void *context, const tbr_tile_work *work)
@@ -287,8 +309,8 @@ void cycles_rendered(void *context, const tbr_tile_work *work)
         tile->raster[i] = largest(stages, STAGE_COUNT) + end;
     }
     memcpy(tile->stages, stages, sizeof stages);
-    tile->raster_b = later(follow_tile(work, &of->p[CYCLES_NOMINAL]), stages[MEMORY]) +
-                     (work->scans ? of->p[CYCLES_NOMINAL].scan_cycles : 0);
+    follow_tile(&of->rows[work->tile / of->tiles_across], work, stages[MEMORY],
+                &of->p[CYCLES_NOMINAL]);
 }
 
 cycles_frame cycles_of_frame(const cycles *of, const tbr_counters *counters)
@@ -303,7 +325,8 @@ cycles_frame cycles_of_frame(const cycles *of, const tbr_counters *counters)
             frame.raster[i] += of->tiles[t].raster[i];
         for (size_t i = 0; i < STAGE_COUNT; i++)
             frame.stages[i] += of->tiles[t].stages[i];
-        frame.raster_b += of->tiles[t].raster_b;
     }
+    for (uint32_t i = 0; i < of->row_count; i++)
+        frame.raster_b += of->rows[i].end + of->rows[i].scans;
     return frame;
 }
