@@ -149,6 +149,14 @@ static void fill_run(fm_plan *plan, const fm_selection *selection)
     plan->warmup = settings.warmup;
 }
 
+static void cap_launches(fm_plan *plan)
+{
+    uint32_t most = 0;
+    for (size_t i = 0; i < plan->count; i++)
+        most = plan_case_launches(plan, i) > most ? plan_case_launches(plan, i) : most;
+    plan->launches = most > 0 ? most : plan->launches;
+}
+
 static fm_status expand_all(expansion *of)
 {
     if (count_cases(&of->chosen) > FM_PLAN_MAX_CASES)
@@ -170,12 +178,19 @@ fm_status plan_expand(fm_plan *plan, const fm_plan_request *request, const fm_pl
         fill_run(plan, &of.chosen.selection);
         plan->cases = of.cases;
         plan->count = of.count;
+        cap_launches(plan);
         of.cases = NULL;
     }
     free(of.ids);
     free(of.cases);
     chosen_destroy(&of.chosen);
     return status;
+}
+
+uint32_t plan_case_launches(const fm_plan *plan, size_t index)
+{
+    const uint32_t own = plan->cases[index].settings.launches;
+    return own > 0 && own < plan->launches ? own : plan->launches;
 }
 
 void plan_free(fm_plan *plan)

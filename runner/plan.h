@@ -44,8 +44,9 @@ typedef struct fm_plan_request {
 typedef struct fm_plan {
     fm_case *cases;
     size_t count;
-    uint64_t seed; /* of the run: interleaving, bootstrap */
-    uint32_t launches, frames, warmup;
+    uint64_t seed;     /* of the run: interleaving, bootstrap */
+    uint32_t launches; /* the most of any case */
+    uint32_t frames, warmup;
 } fm_plan;
 
 enum { FM_PLAN_MAX_CASES = 100000 }; /* before equal ones become one */
@@ -62,6 +63,9 @@ enum { FM_PLAN_MAX_CASES = 100000 }; /* before equal ones become one */
 fm_status plan_expand(fm_plan *plan, const fm_plan_request *request, const fm_plugin_list *plugins,
                       fm_error *err);
 void plan_free(fm_plan *plan);
+/* How often a case is launched: as often as the plan says, but once if it is simulated and nobody
+ * asked for more, since all launches of it would say the same. */
+uint32_t plan_case_launches(const fm_plan *plan, size_t index);
 
 /* Feeds by name, "raster", "compute-layer", ...: one bit of FM_FEED_*, 0 for no such feed. */
 uint32_t feed_from_name(const char *name);

@@ -284,6 +284,9 @@ fm_status plan_case_make(fm_case *made, const fm_plan_point *point, fm_error *er
     if (status != FM_OK)
         return status;
     mark_given(made, point);
+    if (strcmp(point->feed, feed_name(FM_FEED_FRAMES)) == 0 &&
+        !made->is_given[key_find("launches") - fm_keys])
+        made->settings.launches = 1;
     snprintf(made->method, sizeof made->method, "%s", point->entry->id);
     snprintf(made->scene, sizeof made->scene, "%s", point->scene);
     snprintf(made->device, sizeof made->device, "%s", point->device);

@@ -333,7 +333,8 @@ fm_status results_add(fm_results *results, size_t case_index, uint32_t launch, c
 bool results_is_finished(const fm_results *results, size_t case_index)
 {
     const fm_case_result *kept = &results->cases[case_index];
-    return kept->done == results->plan->launches || !case_status_continues(kept->status);
+    return kept->done == plan_case_launches(results->plan, case_index) ||
+           !case_status_continues(kept->status);
 }
 
 static fm_status write_summary(fm_results *results, bool is_end, fm_error *err)

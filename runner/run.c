@@ -105,7 +105,7 @@ static fm_status replay(void *context, fm_journal_event event, const char *case_
     size_t i = 0;
     while (i < run->plan->count && strcmp(run->plan->cases[i].id, case_id) != 0)
         i++;
-    if (i == run->plan->count || launch >= run->plan->launches)
+    if (i == run->plan->count || launch >= plan_case_launches(run->plan, i))
         return fm_fail(err, FM_INVALID, "case %.32s, launch %u is not of this plan", case_id,
                        launch);
     fm_launch_state *state = &run->results->cases[i].launches[launch];
@@ -142,7 +142,8 @@ static fm_status bury_killers(run_state *run, fm_error *err)
 {
     fm_status status = FM_OK;
     for (size_t i = 0; i < run->plan->count && status == FM_OK; i++) {
-        for (uint32_t launch = 0; launch < run->plan->launches && status == FM_OK; launch++) {
+        for (uint32_t launch = 0; launch < plan_case_launches(run->plan, i) && status == FM_OK;
+             launch++) {
             const fm_launch_state *state = &run->results->cases[i].launches[launch];
             if (state->is_done || state->begins < 2)
                 continue;
@@ -355,6 +356,8 @@ static fm_status run_round(run_state *run, uint32_t launch, fm_error *err)
     shuffle(run, launch);
     for (size_t i = 0; i < run->plan->count && status == FM_OK && !should_stop(run); i++) {
         const size_t index = run->order[i];
+        if (launch >= plan_case_launches(run->plan, index))
+            continue;
         if (is_pending(run, index) && !run->results->cases[index].launches[launch].is_done)
             status = measure(run, index, launch, err);
         else if (run->plan->cases[index].skip[0] == '\0' &&
@@ -379,7 +382,7 @@ static void count_launches(run_state *run)
     for (size_t i = 0; i < run->plan->count; i++) {
         if (run->plan->cases[i].skip[0] != '\0')
             continue;
-        run->progress.total += run->plan->launches;
+        run->progress.total += plan_case_launches(run->plan, i);
         run->progress.done += run->results->cases[i].done;
     }
 }

@@ -109,6 +109,28 @@ static void plan_of_nothing_is_every_method_but_controls(void **state)
     plan_free(&with.plan);
 }
 
+static void plan_launches_simulated_cases_once(void **state)
+{
+    (void)state;
+    fixture with;
+    fixture_create(&with);
+    fm_plan_request request = { .methods = LIST("kb"),
+                                .devices = LIST("tbr", "vulkan"),
+                                .feeds = LIST("frames", "raster") };
+    expect(&with, &request, 4);
+    assert_int_equal(with.plan.launches, 5);
+    for (size_t i = 0; i < with.plan.count; i++)
+        assert_int_equal(plan_case_launches(&with.plan, i),
+                         strcmp(with.plan.cases[i].feed, "frames") == 0 ? 1 : 5);
+    request.feeds = LIST("frames");
+    expect(&with, &request, 2);
+    assert_int_equal(with.plan.launches, 1);
+    request.axes = LIST("launches=3");
+    expect(&with, &request, 2);
+    assert_int_equal(plan_case_launches(&with.plan, 0), 3);
+    plan_free(&with.plan);
+}
+
 static void plan_expands_lists_and_ranges(void **state)
 {
     (void)state;
@@ -439,6 +461,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(plan_of_nothing_is_every_method_but_controls),
+        cmocka_unit_test(plan_launches_simulated_cases_once),
         cmocka_unit_test(plan_expands_lists_and_ranges),
         cmocka_unit_test(plan_crosses_axes_with_the_last_one_fastest),
         cmocka_unit_test(plan_refuses_axes_with_the_nearest_name),

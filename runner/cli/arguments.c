@@ -245,7 +245,8 @@ static fm_status merge(fm_plan *plan, const fm_plan *more, fm_error *err)
     plan->frames = larger(plan->frames, more->frames);
     plan->warmup = larger(plan->warmup, more->warmup);
     for (size_t i = 0; i < plan->count; i++) {
-        plan->cases[i].settings.launches = plan->launches;
+        if (strcmp(plan->cases[i].feed, feed_name(FM_FEED_FRAMES)) != 0)
+            plan->cases[i].settings.launches = plan->launches;
         plan->cases[i].settings.frames = plan->frames;
         plan->cases[i].settings.warmup = plan->warmup;
     }

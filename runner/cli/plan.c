@@ -58,7 +58,8 @@ double plan_seconds(const fm_plan *plan)
             continue;
         const double fragments = guessed_fragments(&plan->cases[i].settings);
         const double frames = (double)plan->frames + plan->warmup;
-        seconds += plan->launches * (1.0 + frames * fragments * 32e-9) + fragments * 200e-9;
+        seconds +=
+            plan_case_launches(plan, i) * (1.0 + frames * fragments * 32e-9) + fragments * 200e-9;
     }
     return seconds;
 }
