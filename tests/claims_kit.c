@@ -26,7 +26,8 @@ static void add_summary(fm_text *csv, const fake *row, int index)
              strcmp(device, "soft") == 0 ? "llvmpipe" : "H100", given(row->feed, "raster"));
     if (row->k > 0.0)
         text_add(csv, "%g", row->k);
-    text_add(csv, ",,%g,1,1,random,1,%s,2,", row->pixel_density, given(row->options, ""));
+    text_add(csv, ",,%g,1,1,random,%u,%s,2,", row->pixel_density, row->seed > 0 ? row->seed : 1,
+             given(row->options, ""));
     if (!is_ok) {
         text_add(csv, "0,,,,,,,,,,,,,,,,,,,,,,,,,,,,\n");
         return;

@@ -29,6 +29,7 @@ typedef struct fake {
     double noise;                                 /* 0: one percent */
     int samples;                                  /* 0: 6 */
     double missing, bytes;
+    unsigned seed; /* 0: 1 */
 } fake;
 
 #define ROW(of, keeps, density, time_ms)                                                           \

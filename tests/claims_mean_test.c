@@ -34,10 +34,33 @@ static void over_minus_is_taken_from_over(void **state)
     assert_int_equal(judge("form: mean\nat_most: 1.5\n" SHARE, 5, 10, 20), FM_VERDICT_FAILS);
 }
 
+/* Two seeds, whose means are 1.9 and 2.1: with one degree of freedom the interval of 2 reaches from
+ * 0.7 to 3.3; with nothing between them, hardly beyond 2. */
+static fm_verdict judge_seeds(const char *claim, double apart)
+{
+    const fakes rows = { { { ROW("a", 4, 0.25, 10) },
+                           { ROW("b", 4, 0.25, 10 * (2 - apart)) },
+                           { ROW("a", 4, 0.25, 10), .seed = 2 },
+                           { ROW("b", 4, 0.25, 10 * (2 + apart)), .seed = 2 } } };
+    return judge_beside(claim, &rows, NULL).verdict;
+}
+
+static void mean_of_seeds_is_as_sure_as_they_agree(void **state)
+{
+    (void)state;
+    const char *claim = "form: mean\nat_least: 1.5\nat_most: 2.5\n" RATIO;
+    const fm_verdict apart = judge_seeds(claim, 0.1), close = judge_seeds(claim, 0);
+    assert_int_equal(apart.kind, FM_VERDICT_UNCLEAR);
+    assert_int_equal(close.kind, FM_VERDICT_HOLDS);
+    assert_true(fabs(apart.measured.high - 2 - 12.706 * 0.1) < 0.01);
+    assert_true(fabs(apart.measured.median - 2) < 0.01);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(mean_allows_a_point_outside),
+        cmocka_unit_test(mean_of_seeds_is_as_sure_as_they_agree),
         cmocka_unit_test(over_minus_is_taken_from_over),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

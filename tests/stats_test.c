@@ -97,6 +97,16 @@ static void random_below_is_uniform(void **state)
         assert_in_range(counts[i], DRAWS / BOUND - TOLERANCE, DRAWS / BOUND + TOLERANCE);
 }
 
+static void student_falls_towards_the_normal_distribution(void **state)
+{
+    (void)state;
+    assert_true(isinf(stats_student(0)));
+    assert_float_equal(stats_student(4), 2.776, 1e-9); /* five seeds */
+    for (size_t i = 1; i < 40; i++)
+        assert_true(stats_student(i) <= stats_student(i - 1));
+    assert_true(stats_student(1000) > 1.96);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -107,6 +117,7 @@ int main(void)
         cmocka_unit_test(bootstrap_repeats_for_a_seed),
         cmocka_unit_test(bootstrap_sees_the_spread_of_launches),
         cmocka_unit_test(bootstrap_leaves_out_empty_groups),
+        cmocka_unit_test(student_falls_towards_the_normal_distribution),
         cmocka_unit_test(random_next_is_splitmix64),
         cmocka_unit_test(random_below_is_uniform),
     };

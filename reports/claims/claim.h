@@ -34,7 +34,7 @@
  * widens each of them; the default is 0):
  *   bound     every point is within the bounds
  *   any       at least one point is
- *   mean      the arithmetic mean of all points is
+ *   mean      the arithmetic mean of all points is; with several seeds its interval is over theirs
  *   order     of: a list of selections; at each workload each is not above the next, but by the
  *             tolerance
  *   monotone  along, goes (rises or falls): no step goes back by more than the tolerance, and the

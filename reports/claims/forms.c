@@ -67,19 +67,78 @@ static fm_status judge_bound(judging *to, fm_error *err)
     return FM_OK;
 }
 
+static const char *seed_of(const fm_claim_point *point)
+{
+    return point->result != NULL && point->result->seed != NULL ? point->result->seed : "";
+}
+
+static bool is_first_of_seed(const fm_claim_points *points, size_t index)
+{
+    for (size_t i = 0; i < index; i++)
+        if (strcmp(seed_of(&points->points[i]), seed_of(&points->points[index])) == 0)
+            return false;
+    return true;
+}
+
+/* The mean of the points of one seed; NULL: of all. */
+static fm_interval mean_of(size_t *count, const fm_claim_points *points, const char *seed)
+{
+    fm_interval mean = { 0 };
+    *count = 0;
+    for (size_t i = 0; i < points->count; i++) {
+        if (seed != NULL && strcmp(seed_of(&points->points[i]), seed) != 0)
+            continue;
+        mean.median += points->points[i].value.median;
+        mean.low += points->points[i].value.low;
+        mean.high += points->points[i].value.high;
+        (*count)++;
+    }
+    mean.median /= (double)*count;
+    mean.low /= (double)*count;
+    mean.high /= (double)*count;
+    return mean;
+}
+
+/* Seeds are draws of the same inputs: their means scatter, and so, by Student's t, does what is
+ * said of all. false: there is one seed, of which the interval says nothing. */
+static bool widen_by_seeds(fm_interval *mean, fm_interval *range, size_t *seeds,
+                           const fm_claim_points *points)
+{
+    double sum = 0.0, squares = 0.0;
+    size_t of_seed;
+    *range = (fm_interval){ mean->median, INFINITY, -INFINITY };
+    *seeds = 0;
+    for (size_t i = 0; i < points->count; i++) {
+        if (!is_first_of_seed(points, i))
+            continue;
+        const double value = mean_of(&of_seed, points, seed_of(&points->points[i])).median;
+        range->low = fmin(range->low, value);
+        range->high = fmax(range->high, value);
+        sum += value;
+        squares += value * value;
+        (*seeds)++;
+    }
+    if (*seeds < 2)
+        return false;
+    const double n = (double)*seeds, variance = fmax(squares - sum * sum / n, 0.0) / (n - 1.0);
+    const double half = stats_student(*seeds - 1) * sqrt(variance / n);
+    mean->low = mean->median - hypot(half, mean->median - mean->low);
+    mean->high = mean->median + hypot(half, mean->high - mean->median);
+    return true;
+}
+
 static fm_status judge_mean(judging *to, fm_error *err)
 {
-    const fm_claim_points *points = to->points;
-    const double share = 1.0 / (double)points->count;
-    fm_interval mean = { 0 };
+    size_t count = 0, seeds = 0;
+    fm_interval mean = mean_of(&count, to->points, NULL), range;
     (void)err;
-    for (size_t i = 0; i < points->count; i++) {
-        mean.median += share * points->points[i].value.median;
-        mean.low += share * points->points[i].value.low;
-        mean.high += share * points->points[i].value.high;
-    }
+    const bool has_seeds = widen_by_seeds(&mean, &range, &seeds, to->points);
     judge_value(to, mean, NULL, NULL);
-    judging_note(to, "the mean of %zu", points->count);
+    if (has_seeds)
+        judging_note(to, "the mean of %zu; %zu seeds: %.4g to %.4g", count, seeds, range.low,
+                     range.high);
+    else
+        judging_note(to, "the mean of %zu", count);
     return FM_OK;
 }
 

@@ -7,16 +7,32 @@
 #include "cli.h"
 #include "memory_table.h"
 
-enum { KEY_SMOKE = 512, KEY_LARGE, KEY_REFERENCE };
+enum { KEY_SMOKE = 512, KEY_LARGE, KEY_REFERENCE, KEY_SEEDS };
+enum { SEEDS_MAX = 100 };
 
 static const struct argp_option options[] = {
     { "smoke", KEY_SMOKE, NULL, 0, "the figure's own small variant: minutes, no GPU needed", 0 },
     { "large", KEY_LARGE, NULL, 0, "also what takes hours without a GPU", 0 },
+    { "seeds", KEY_SEEDS, "N", 0,
+      "scenes made from each of the seeds 1 to N, and intervals over them (1)", 0 },
     { "reference", KEY_REFERENCE, "NAME|DIR|none", 0,
       "another machine's results beside ours in all charts; without it h100 in ratios and verdicts",
       0 },
     { 0 },
 };
+
+/* The same as `-a seed=1,2,...,N`. */
+static void add_seeds(fm_arguments *arguments, struct argp_state *state, const char *text)
+{
+    uint64_t count = 0;
+    char axis[64];
+    fm_error err = { 0 };
+    if (!text_to_u64(&count, text) || count == 0 || count > SEEDS_MAX)
+        argp_error(state, "--seeds %s: legal is 1..%d", text, SEEDS_MAX);
+    snprintf(axis, sizeof axis, "seed=1:%u:+1", (unsigned)count);
+    if (names_add(&arguments->axes, axis, &err) != FM_OK)
+        cli_argp_fail(state, &err);
+}
 
 static error_t parse(int key, char *text, struct argp_state *state)
 {
@@ -27,6 +43,9 @@ static error_t parse(int key, char *text, struct argp_state *state)
         return 0;
     case KEY_LARGE:
         arguments->large = true;
+        return 0;
+    case KEY_SEEDS:
+        add_seeds(arguments, state, text);
         return 0;
     case KEY_REFERENCE:
         arguments->reference = text;
@@ -58,6 +77,7 @@ static const struct argp argp = {
            "  fragmark reproduce kplus-05 --smoke -o quick\n"
            "  fragmark reproduce kplus            all figures of that paper\n"
            "  fragmark reproduce KP-3             the figure that this claim is about\n"
+           "  fragmark reproduce evr --seeds 5    its scenes made five times over\n"
            "  fragmark reproduce all --device vulkan:1\n"
            "\n" CLI_EXIT_CODES,
     .children = children,
