@@ -46,7 +46,7 @@ typedef struct fm_plan {
     size_t count;
     uint64_t seed;     /* of the run: interleaving, bootstrap */
     uint32_t launches; /* the most of any case */
-    uint32_t frames, warmup;
+    uint32_t frames, warmup; /* the same */
 } fm_plan;
 
 enum { FM_PLAN_MAX_CASES = 100000 }; /* before equal ones become one */

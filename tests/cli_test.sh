@@ -68,6 +68,20 @@ check unknown_claim_names_the_nearest 2 "nearest is 'KP-20'" "$program" reproduc
 check claim_names_its_figure 0 "4 ok" "$program" reproduce KP-26 --smoke --device dummy --no-report -o "$here/claim"
 grep -q '^kplus-03,' "$here/claim/figures.csv" || complain "claim_names_its_figure: figures.csv does not"
 
+# Each figure's cases are measured as often as it says; what two want, as often as either wants.
+mkdir "$here/two"
+chart='charts: [{ id: c, title: c, x: k, y: frame_ms }]'
+head='methods: [kplus-array], scenes: [layers], feeds: [raster], n: 3, width_px: 9, height_px: 9'
+printf 'id: one-1\npaper: one\ntitle: t\nrun: { %s, k: [2, 3], launches: 2, frames: 1, warmup: 0 }\n%s\n' \
+    "$head" "$chart" >"$here/two/one-1.yml"
+printf 'id: one-2\npaper: one\ntitle: t\nrun: { %s, k: [3, 4], launches: 1, frames: 3, warmup: 0 }\n%s\n' \
+    "$head" "$chart" >"$here/two/one-2.yml"
+check figures_keep_their_launches 0 "3 ok" env FRAGMARK_FIGURE_PATH="$here/two" "$program" \
+    reproduce one --device dummy --no-report -o "$here/both"
+counts=$(cut -d, -f2,18 "$here/both/summary.csv" | tail -n +2 | sort -t, -k2n | while IFS=, read -r id _; do
+    grep -c ",$id,.*,frame_ms," "$here/both/samples.csv"; done | sort -n | paste -sd,)
+[ "$counts" = 2,3,6 ] || complain "figures_keep_their_launches: $counts frames, not 2,3,6"
+
 # A table of memory is a figure like others: nothing is measured, claims are judged.
 check table_is_reproduced 0 "0 differ" "$program" reproduce kplus-table1 -o "$here/table"
 grep -q '^kplus-table1,' "$here/table/memory.csv" || complain "table_is_reproduced: no memory.csv"

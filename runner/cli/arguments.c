@@ -223,12 +223,20 @@ static uint32_t larger(uint32_t a, uint32_t b)
     return a > b ? a : b;
 }
 
-static bool has_case(const fm_plan *plan, const char *id)
+static fm_settings *find_case(const fm_plan *plan, const char *id)
 {
     for (size_t i = 0; i < plan->count; i++)
         if (strcmp(plan->cases[i].id, id) == 0)
-            return true;
-    return false;
+            return &plan->cases[i].settings;
+    return NULL;
+}
+
+/* A case that several specs want is measured as often as any of them wants it. */
+static void take_most(fm_settings *settings, const fm_settings *more)
+{
+    settings->launches = larger(settings->launches, more->launches);
+    settings->frames = larger(settings->frames, more->frames);
+    settings->warmup = larger(settings->warmup, more->warmup);
 }
 
 static fm_status merge(fm_plan *plan, const fm_plan *more, fm_error *err)
@@ -237,19 +245,17 @@ static fm_status merge(fm_plan *plan, const fm_plan *more, fm_error *err)
     if (grown == NULL)
         return fm_fail(err, FM_NO_MEMORY, "no memory for %zu cases", plan->count + more->count);
     plan->cases = grown;
-    for (size_t i = 0; i < more->count; i++)
-        if (!has_case(plan, more->cases[i].id))
+    for (size_t i = 0; i < more->count; i++) {
+        fm_settings *found = find_case(plan, more->cases[i].id);
+        if (found != NULL)
+            take_most(found, &more->cases[i].settings);
+        else
             plan->cases[plan->count++] = more->cases[i];
+    }
     plan->seed = more->seed;
     plan->launches = larger(plan->launches, more->launches);
     plan->frames = larger(plan->frames, more->frames);
     plan->warmup = larger(plan->warmup, more->warmup);
-    for (size_t i = 0; i < plan->count; i++) {
-        if (strcmp(plan->cases[i].feed, feed_name(FM_FEED_FRAMES)) != 0)
-            plan->cases[i].settings.launches = plan->launches;
-        plan->cases[i].settings.frames = plan->frames;
-        plan->cases[i].settings.warmup = plan->warmup;
-    }
     return FM_OK;
 }
 

@@ -56,8 +56,9 @@ double plan_seconds(const fm_plan *plan)
     for (size_t i = 0; i < plan->count; i++) {
         if (plan->cases[i].skip[0] != '\0')
             continue;
-        const double fragments = guessed_fragments(&plan->cases[i].settings);
-        const double frames = (double)plan->frames + plan->warmup;
+        const fm_settings *settings = &plan->cases[i].settings;
+        const double fragments = guessed_fragments(settings);
+        const double frames = (double)settings->frames + settings->warmup;
         seconds +=
             plan_case_launches(plan, i) * (1.0 + frames * fragments * 32e-9) + fragments * 200e-9;
     }

@@ -321,6 +321,7 @@ static fm_status make_plan(fm_plan *plan, fm_plugin_list *plugins, const fm_argu
 {
     if (specs->paths.count > 0)
         return arguments_plan(plan, plugins, arguments, names_list(&specs->paths), err);
+    plan->launches = 1;
     return plugin_list_open(plugins, names_list(&arguments->plugin_folders), err);
 }
 
