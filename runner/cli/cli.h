@@ -85,7 +85,8 @@ char *cli_axes_help(int key, const char *text, void *input);
 void cli_argp_fail(struct argp_state *state, const fm_error *err);
 void arguments_free(fm_arguments *arguments);
 /* Opens the plugins and expands the arguments. Several specs make one plan: equal cases are one,
- * with the most launches, frames and warm-up that any of them wants. specs end with NULL; none: no spec. */
+ * with the most launches, frames and warm-up that any of them wants. specs end with NULL; none: no
+ * spec. */
 fm_status arguments_plan(fm_plan *plan, fm_plugin_list *plugins, const fm_arguments *arguments,
                          const char *const *specs, fm_error *err);
 
