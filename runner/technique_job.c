@@ -325,9 +325,10 @@ static void set_metrics(run_state *run)
 /* What of the simulator ran for this technique and sequence. */
 static json_t *modelled(const run_state *run)
 {
-    static const char *const names[] = { "visibility", "signatures",  "taint",
-                                         "exact ties", "paper types", "owners",
-                                         "prepass",    "final depth", "previous colour" };
+    static const char *const names[] = { "visibility",   "signatures",  "taint",
+                                         "exact ties",   "paper types", "owners",
+                                         "prepass",      "final depth", "previous colour",
+                                         "object order", "two buffers", "uploads" };
     _Static_assert(FM_PARTS_ALL == (1u << sizeof names / sizeof names[0]) - 1, "one a part");
     json_t *parts = json_array(), *scene = json_array();
     for (unsigned i = 0; i < sizeof names / sizeof names[0]; i++)

@@ -37,3 +37,11 @@ grep -q ',ok,.*,nearest-lock,' "$temporary/out/summary.csv" || {
     cat "$temporary/out/summary.csv"
     exit 1
 }
+
+"$prefix/bin/fragmark" run --plugin-dir "$plugins" --device tbr --scene frames/gl-demo --no-report \
+    --method tbr-base,tbr-depth-last -o "$temporary/frames"
+grep -q ',ok,.*,tbr-depth-last,' "$temporary/frames/summary.csv" || {
+    echo "summary.csv has no row of tbr-depth-last that is ok:"
+    cat "$temporary/frames/summary.csv"
+    exit 1
+}

@@ -177,6 +177,7 @@ static void make_thing(scene *s, thing *t)
 {
     *t = (thing){ .draw = kit_woz() };
     t->draw.texture = ++s->next_id;
+    t->draw.object = (uint16_t)(s->next_id % 7);
     make_depth(s, t);
     place(s, t);
     if ((s->flags & KIT_CLEARS) != 0 && one_in(s, 16)) {

@@ -71,6 +71,14 @@ static void re_draws_what_base_draws(void **state)
 {
     (void)state;
     assert_draws_as_base("tbr-re", KIT_ALL);
+    assert_draws_as_base("tbr-re age=2 uploads=disable", KIT_ALL);
+}
+
+static void vro_lite_draws_what_base_draws(void **state)
+{
+    (void)state;
+    assert_draws_as_base("tbr-vro-lite", KIT_ALL);
+    assert_draws_as_base("tbr-vro-lite", KIT_TIES | KIT_SLOPED);
 }
 
 static void evr_safe_draws_what_base_draws(void **state)
@@ -78,6 +86,7 @@ static void evr_safe_draws_what_base_draws(void **state)
     (void)state;
     assert_draws_as_base("tbr-evr-safe", KIT_ALL);
     assert_draws_as_base("tbr-evr-safe", KIT_NWOZ);
+    assert_draws_as_base("tbr-evr-safe age=2", KIT_ALL);
     assert_draws_as_base("tbr-evr-safe tie=paper", KIT_NWOZ | KIT_DISCARD | KIT_BARRIERS);
 }
 
@@ -269,6 +278,7 @@ int main(void)
         cmocka_unit_test(reorder_draws_what_base_draws),
         cmocka_unit_test(re_draws_what_base_draws),
         cmocka_unit_test(evr_safe_draws_what_base_draws),
+        cmocka_unit_test(vro_lite_draws_what_base_draws),
         cmocka_unit_test(z_prepass_draws_what_base_draws),
         cmocka_unit_test(oracles_draw_what_base_draws),
         cmocka_unit_test(evr_keeps_what_was_seen_though_unsigned),

@@ -22,8 +22,8 @@ run() { "$program" run --device tbr --scene "$work/small.yml" -a launches=1 --no
 
 run --method all -a 'model=accumulate_cycles=2,accumulate_cycles=9' -o "$work/out" 2>"$work/log" ||
     { cat "$work/log"; exit 1; }
-# Nine techniques, twice: all but tbr-evr are declared exact, so that a wrong tile would have failed.
-[ "$(grep -c ',ok,' "$work/out/summary.csv")" = 18 ] || fail "not 18 cases ok"
+# Ten techniques, twice: all but tbr-evr are declared exact, so that a wrong tile would have failed.
+[ "$(grep -c ',ok,' "$work/out/summary.csv")" = 20 ] || fail "not 20 cases ok"
 grep -q 'model=accumulate_cycles=9' "$work/out/summary.csv" || fail "options do not tell the model"
 grep -q '_ms,' "$work/out/samples.csv" && fail "simulated time stands in milliseconds"
 
@@ -43,7 +43,7 @@ awk -F, '
             if ((parts[c] / value[c, "energy_nj"] - 1) ^ 2 > 1e-12) exit 3
         }
         if (most / least > 1.02) exit 5 # the two forms of the cycle model, as ratios of techniques
-        exit n == 18 ? 0 : 4
+        exit n == 20 ? 0 : 4
     }' "$work/out/samples.csv" || fail "sums of samples.csv: $?"
 
 # The same seed gives the same counts.

@@ -37,7 +37,8 @@ static void tile_end(fm_tile_end *tile)
 static const fm_technique technique = {
     .parts = FM_PART_VISIBILITY | FM_PART_SIGNATURES | FM_PART_TAINT,
     .choices = { { "tie", "exact", FM_PART_EXACT_TIES },
-                 { "types", "paper", FM_PART_PAPER_TYPES } },
+                 { "types", "paper", FM_PART_PAPER_TYPES },
+                 { "age", "2", FM_PART_TWO_BUFFERS } },
     .predict = evr_predict,
     .place = evr_place,
     .sign = sign,
@@ -63,7 +64,9 @@ const fm_method_desc fm_method = {
                    .help = "equal depths across the lists: as submitted, or as they come" },
                  { .name = "types",
                    .values = { "exact", "paper" },
-                   .help = "paper: whatever writes depth may be reordered" } },
-
+                   .help = "paper: whatever writes depth may be reordered" },
+                 { .name = "age",
+                   .values = { "1", "2" },
+                   .help = "frames since the one compared: 2 with two frame buffers in turns" } },
     .technique = &technique,
 };

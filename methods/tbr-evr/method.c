@@ -15,6 +15,7 @@ static const fm_technique technique = {
     .parts = FM_PART_VISIBILITY | FM_PART_SIGNATURES,
     .choices = { { "tie", "exact", FM_PART_EXACT_TIES },
                  { "types", "paper", FM_PART_PAPER_TYPES },
+                 { "age", "2", FM_PART_TWO_BUFFERS },
                  { "fvp", "owner", FM_PART_OWNER } },
     .predict = evr_predict,
     .place = evr_place,
@@ -44,6 +45,9 @@ const fm_method_desc fm_method = {
                    .help = "paper: whatever writes depth may be reordered" },
                  { .name = "fvp",
                    .values = { "zr", "owner" },
-                   .help = "type of the farthest point: by register ZR, or by a bit a pixel" } },
+                   .help = "type of the farthest point: by register ZR, or by a bit a pixel" },
+                 { .name = "age",
+                   .values = { "1", "2" },
+                   .help = "frames since the one compared: 2 with two frame buffers in turns" } },
     .technique = &technique,
 };

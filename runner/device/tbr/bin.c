@@ -60,39 +60,66 @@ static bool delimits(const fm_draw_call *draw)
     return type == FM_TYPE_BARRIER || type == FM_TYPE_SHADER_DEPTH;
 }
 
+static fm_status make_draw_room(tbr *gpu, fm_error *err)
+{
+    void *draws = gpu->draws, *prepassed = gpu->draw_is_prepassed;
+    void *may_move = gpu->draw_may_move, *order = gpu->draw_order;
+    const uint32_t wanted = gpu->frame->draw_count + 1;
+    bool is_whole = grow(&draws, wanted, gpu->draw_room, sizeof *gpu->draws);
+    gpu->draws = draws;
+    is_whole = is_whole && grow(&prepassed, wanted, gpu->draw_room, sizeof(bool));
+    gpu->draw_is_prepassed = prepassed;
+    is_whole = is_whole && grow(&may_move, wanted, gpu->draw_room, sizeof(bool));
+    gpu->draw_may_move = may_move;
+    is_whole = is_whole && grow(&order, wanted, gpu->draw_room, sizeof *gpu->draw_order);
+    gpu->draw_order = order;
+    if (!is_whole)
+        return fm_fail(err, FM_NO_MEMORY, "no memory for %u draw calls", wanted - 1);
+    if (gpu->draw_room < wanted)
+        gpu->draw_room = wanted;
+    return FM_OK;
+}
+
+static void prepare_draw(tbr *gpu, uint32_t index, uint32_t submitted_first)
+{
+    const fm_draw_call *draw = &gpu->frame->draws[index];
+    const bool is_clear = (draw->flags & FM_DRAW_DEPTH_CLEAR) != 0;
+    gpu->draws[index] = (tbr_draw){
+        .type = tbr_type(draw, gpu->desc.parts),
+        .tests_depth = draw->depth_test != FM_COMPARE_OFF,
+        .writes_depth =
+            draw->depth_test != FM_COMPARE_OFF && (draw->flags & FM_DRAW_DEPTH_WRITE) != 0,
+        .delimits = is_clear || delimits(draw),
+        .digest = draw_digest(draw),
+        .state_crc = tbr_has(gpu, FM_PART_SIGNATURES) ? state_crc(gpu, draw) : 0,
+        .submitted_first = submitted_first,
+    };
+    const bool is_woz = !is_clear && gpu->draws[index].type == FM_TYPE_WOZ;
+    gpu->draw_is_prepassed[index] =
+        tbr_has(gpu, FM_PART_PREPASS) && is_woz && (draw->flags & FM_DRAW_DISCARD) == 0;
+    gpu->draw_may_move[index] = is_woz;
+    gpu->draw_order[index] = index;
+    gpu->tracks_layers = gpu->tracks_layers || !is_woz;
+}
+
 static fm_status prepare_draws(tbr *gpu, fm_error *err)
 {
     const fm_frame *frame = gpu->frame;
-    void *draws = gpu->draws, *prepassed = gpu->draw_is_prepassed;
-    bool is_whole = grow(&draws, frame->draw_count + 1, gpu->draw_room, sizeof *gpu->draws);
-    gpu->draws = draws;
-    is_whole = is_whole && grow(&prepassed, frame->draw_count + 1, gpu->draw_room, sizeof(bool));
-    gpu->draw_is_prepassed = prepassed;
-    if (!is_whole)
-        return fm_fail(err, FM_NO_MEMORY, "no memory for %u draw calls", frame->draw_count);
-    if (gpu->draw_room < frame->draw_count + 1)
-        gpu->draw_room = frame->draw_count + 1;
+    uint32_t submitted_first = 0;
+    fm_status status = make_draw_room(gpu, err);
+    if (status != FM_OK)
+        return status;
     gpu->tracks_layers = gpu->desc.keep_layers || 2 * frame->clear_depth != FM_DEPTH_FARTHEST;
     for (uint32_t i = 0; i < frame->draw_count; i++) {
-        const fm_draw_call *draw = &frame->draws[i];
-        const bool is_clear = (draw->flags & FM_DRAW_DEPTH_CLEAR) != 0;
-        gpu->draws[i] = (tbr_draw){
-            .type = tbr_type(draw, gpu->desc.parts),
-            .tests_depth = draw->depth_test != FM_COMPARE_OFF,
-            .writes_depth =
-                draw->depth_test != FM_COMPARE_OFF && (draw->flags & FM_DRAW_DEPTH_WRITE) != 0,
-            .delimits = is_clear || delimits(draw),
-            .digest = draw_digest(draw),
-            .state_crc = tbr_has(gpu, FM_PART_SIGNATURES) ? state_crc(gpu, draw) : 0,
-        };
-        gpu->draw_is_prepassed[i] = tbr_has(gpu, FM_PART_PREPASS) && !is_clear &&
-                                    gpu->draws[i].type == FM_TYPE_WOZ &&
-                                    (draw->flags & FM_DRAW_DISCARD) == 0;
-        if (is_clear || gpu->draws[i].type != FM_TYPE_WOZ)
-            gpu->tracks_layers = true;
+        prepare_draw(gpu, i, submitted_first);
+        submitted_first += frame->draws[i].count;
     }
     gpu->tracks_layers = gpu->tracks_layers && tbr_has(gpu, FM_PART_VISIBILITY);
-    return FM_OK;
+    if (tbr_has(gpu, FM_PART_OBJECT_ORDER))
+        status = history_order(gpu->draw_order, gpu->history, frame, gpu->draw_may_move, err);
+    if (status == FM_OK && tbr_has(gpu, FM_PART_UPLOADS))
+        status = history_uploads(&gpu->has_uploads, gpu->history, frame, err);
+    return status;
 }
 
 static void reset_bins(tbr *gpu)
@@ -320,6 +347,7 @@ static fm_status bin_draw(tbr *gpu, uint32_t index, fm_error *err)
     const fm_draw_call *draw = &gpu->frame->draws[index];
     const bool is_prepassed = gpu->draw_is_prepassed[index];
     fm_status status = FM_OK;
+    gpu->draws[index].binned_first = gpu->primitive_count;
     count_draw(gpu, draw, is_prepassed);
     for (uint32_t i = 0; i < draw->count && status == FM_OK; i++) {
         const fm_triangle *triangle = &gpu->frame->triangles[draw->first + i];
@@ -370,9 +398,11 @@ fm_status bin_frame(tbr *gpu, fm_error *err)
     if (status != FM_OK)
         return status;
     reset_bins(gpu);
-    for (uint32_t i = 0; i < gpu->frame->draw_count && status == FM_OK; i++)
-        status = (gpu->frame->draws[i].flags & FM_DRAW_DEPTH_CLEAR) != 0 ? bin_clear(gpu, i, err)
-                                                                         : bin_draw(gpu, i, err);
+    for (uint32_t i = 0; i < gpu->frame->draw_count && status == FM_OK; i++) {
+        const uint32_t draw = gpu->draw_order[i];
+        const bool is_clear = (gpu->frame->draws[draw].flags & FM_DRAW_DEPTH_CLEAR) != 0;
+        status = is_clear ? bin_clear(gpu, draw, err) : bin_draw(gpu, draw, err);
+    }
     for (uint32_t i = 0; i < gpu->tile_count; i++)
         splice(gpu, &gpu->bins[i].first, &gpu->bins[i].second);
     return status;

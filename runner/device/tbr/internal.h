@@ -5,6 +5,7 @@
 #include <stdatomic.h>
 
 #include "device/tbr/crc.h"
+#include "device/tbr/history.h"
 #include "device/tbr/pool.h"
 #include "device/tbr/setup.h"
 #include "device/tbr/span.h"
@@ -30,6 +31,7 @@ typedef struct tbr_draw {
     bool delimits; /* the final depth of what comes before says nothing about what comes after */
     uint32_t digest;
     uint32_t state_crc;
+    uint32_t submitted_first, binned_first; /* its first primitive, in either order */
 } tbr_draw;
 
 /* A node of a tile's list. */
@@ -74,14 +76,18 @@ struct tbr {
     crc_table crc;
     crc_shift shift_state, shift_primitive;
 
-    uint32_t *image;    /* [height][width] */
-    tbr_bin *bins;      /* [tile_count] */
-    tbr_memory *memory; /* [tile_count] */
+    uint32_t *image, *other_image;     /* [height][width]; other: with FM_PART_TWO_BUFFERS */
+    tbr_bin *bins;                     /* [tile_count] */
+    tbr_memory *memory, *other_memory; /* [tile_count] */
+    history *history;                  /* NULL: no part needs it */
+    bool has_uploads;
 
     const fm_frame *frame;
     bool tracks_layers; /* in this frame */
     tbr_draw *draws;
     bool *draw_is_prepassed;
+    bool *draw_may_move;  /* with FM_PART_OBJECT_ORDER: */
+    uint32_t *draw_order; /* submitted numbers, as binned */
     uint32_t draw_room;
     tbr_setup *setups; /* [primitive_count], in submission order */
     uint32_t *primitive_draw, *pair_counts;
@@ -105,6 +111,12 @@ typedef struct tbr_thread {
     uint32_t work_room;
     bool failed; /* no memory for work */
 } tbr_thread;
+
+/* Whether there is a frame that "previous" means. */
+static inline bool tbr_has_previous(const tbr *gpu)
+{
+    return gpu->frame_index >= ((gpu->desc.parts & FM_PART_TWO_BUFFERS) != 0 ? 2u : 1u);
+}
 
 /* The geometry phase of gpu->frame. */
 fm_status bin_frame(tbr *gpu, fm_error *err);

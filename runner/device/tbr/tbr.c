@@ -20,11 +20,21 @@ static fm_status allocate(tbr *gpu, fm_error *err)
     gpu->bins = calloc(gpu->tile_count, sizeof *gpu->bins);
     gpu->memory = calloc(gpu->tile_count, sizeof *gpu->memory);
     gpu->threads = calloc(gpu->desc.threads, sizeof *gpu->threads);
+    if (tbr_has(gpu, FM_PART_TWO_BUFFERS)) {
+        gpu->other_image = calloc(pixels, sizeof *gpu->image);
+        gpu->other_memory = calloc(gpu->tile_count, sizeof *gpu->memory);
+        if (gpu->other_image == NULL || gpu->other_memory == NULL)
+            return fm_fail(err, FM_NO_MEMORY, "no memory for %zu pixels twice", pixels);
+    }
     if (gpu->image == NULL || gpu->bins == NULL || gpu->memory == NULL || gpu->threads == NULL)
         return fm_fail(err, FM_NO_MEMORY, "no memory for %zu pixels", pixels);
     for (uint32_t i = 0; i < gpu->tile_count; i++)
         gpu->memory[i].fvp = FM_FVP_UNKNOWN;
-    return pool_create(&gpu->pool, gpu->desc.threads, err);
+    if (gpu->other_memory != NULL)
+        memcpy(gpu->other_memory, gpu->memory, gpu->tile_count * sizeof *gpu->memory);
+    const bool has_history = tbr_has(gpu, FM_PART_OBJECT_ORDER | FM_PART_UPLOADS);
+    const fm_status status = has_history ? history_create(&gpu->history, err) : FM_OK;
+    return status == FM_OK ? pool_create(&gpu->pool, gpu->desc.threads, err) : status;
 }
 
 fm_status tbr_create(tbr **made, const tbr_desc *desc, fm_error *err)
@@ -64,11 +74,16 @@ void tbr_destroy(tbr *gpu)
     for (uint32_t i = 0; gpu->threads != NULL && i < gpu->desc.threads; i++)
         free(gpu->threads[i].work);
     free(gpu->threads);
+    history_destroy(gpu->history);
     free(gpu->image);
+    free(gpu->other_image);
     free(gpu->bins);
     free(gpu->memory);
+    free(gpu->other_memory);
     free(gpu->draws);
     free(gpu->draw_is_prepassed);
+    free(gpu->draw_may_move);
+    free(gpu->draw_order);
     free(gpu->setups);
     free(gpu->primitive_draw);
     free(gpu->pair_counts);
@@ -104,9 +119,22 @@ static void tell_binned(const tbr *gpu)
         gpu->desc.binned(gpu->desc.context, &geometry, &gpu->counters);
 }
 
+static void swap_buffers(tbr *gpu)
+{
+    uint32_t *image = gpu->image;
+    tbr_memory *memory = gpu->memory;
+    if (!tbr_has(gpu, FM_PART_TWO_BUFFERS))
+        return;
+    gpu->image = gpu->other_image;
+    gpu->memory = gpu->other_memory;
+    gpu->other_image = image;
+    gpu->other_memory = memory;
+}
+
 fm_status tbr_frame(tbr *gpu, const fm_frame *frame, fm_error *err)
 {
     bool failed = false;
+    swap_buffers(gpu);
     gpu->frame = frame;
     gpu->counters = (tbr_counters){ 0 };
     const fm_status status = bin_frame(gpu, err);

@@ -122,7 +122,7 @@ static tbr_span make_span(const tile_state *tile, const tbr_entry *entry)
         .exact_ties = tbr_has(gpu, FM_PART_EXACT_TIES) && of->type == FM_TYPE_WOZ,
         .is_signed = entry->is_signed,
         .layer = entry->layer,
-        .order = entry->primitive + 1,
+        .order = entry->primitive - of->binned_first + of->submitted_first + 1,
     };
     place_edges(&span, setup, tile);
     return span;
@@ -300,7 +300,7 @@ static void scan_visibility(fm_tile_end *end, const tile_state *tile)
 static bool equals_image(const tile_state *tile)
 {
     const tbr *gpu = tile->gpu;
-    if (gpu->frame_index == 0)
+    if (!tbr_has_previous(gpu))
         return false;
     for (int32_t y = 0; y < tile->height; y++) {
         const size_t row = (size_t)(tile->y + y) * gpu->desc.width_px + (size_t)tile->x;
@@ -389,11 +389,12 @@ static bool is_skipped(tile_state *tile)
     const fm_tile_start start = { .signature = gpu->bins[tile->tile].signature,
                                   .previous = memory->signature,
                                   .previous_valid = memory->signature_valid,
+                                  .has_uploads = gpu->has_uploads,
                                   .bits = gpu->bins[tile->tile].bits };
     if (gpu->technique.skip == NULL || !tbr_has(gpu, FM_PART_SIGNATURES))
         return false;
     tile->counters.signature_compares++;
-    return gpu->frame_index > 0 && gpu->technique.skip(&start);
+    return tbr_has_previous(gpu) && gpu->technique.skip(&start);
 }
 
 void tile_run(tbr *gpu, tbr_thread *thread, uint32_t index)

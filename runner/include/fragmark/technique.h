@@ -33,8 +33,14 @@ enum {
     FM_PART_PREPASS = 1u << 6,     /* FM_TYPE_WOZ is binned and drawn twice, first depth only */
     FM_PART_FINAL_DEPTH = 1u << 7, /* the depth buffer starts as it will end, at no cost */
     FM_PART_PREVIOUS_COLOUR = 1u << 8, /* fm_tile_end.is_equal */
+    FM_PART_OBJECT_ORDER = 1u << 9,    /* neighbouring draw calls of FM_TYPE_WOZ are drawn front to
+                                          back, by how near their objects came in the last frame */
+    FM_PART_TWO_BUFFERS = 1u << 10,    /* frames are drawn in turns into two frame buffers with a
+                                          memory (FVP, signatures) each: "previous" is the frame
+                                          before the last */
+    FM_PART_UPLOADS = 1u << 11,        /* fm_tile_start.has_uploads */
 };
-#define FM_PARTS_ALL ((1u << 9) - 1u)
+#define FM_PARTS_ALL ((1u << 12) - 1u)
 
 /* What a primitive is to visibility; its draw call decides. */
 typedef enum fm_primitive_type {
@@ -78,6 +84,7 @@ typedef enum fm_place {
 typedef struct fm_tile_start {
     uint32_t signature, previous; /* of this frame; of the frame before */
     bool previous_valid;          /* as the technique left it; false in the first frame */
+    bool has_uploads;             /* FM_PART_UPLOADS: the frame has a texture's new contents */
     uint32_t bits;                /* the technique's own, of this frame */
 } fm_tile_start;
 
