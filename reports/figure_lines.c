@@ -90,7 +90,7 @@ static int compare_x(const void *left, const void *right)
     return (a->x > b->x) - (a->x < b->x);
 }
 
-/* Series of one method with other options: other markers, and every second one dashed. */
+/* Series of one method with other options: darker, other markers, and every second one dashed. */
 static void tell_variants_apart(fm_series *series, const fm_group *group, size_t first)
 {
     size_t variant = 0;
@@ -98,6 +98,7 @@ static void tell_variants_apart(fm_series *series, const fm_group *group, size_t
         variant += strcmp(group->cases[i - 1]->method, group->cases[first]->method) == 0 &&
                    !group_same_series(group->cases[i - 1], group->cases[i]);
     series->marker = (fm_marker)(((size_t)series->marker + variant) % FM_MARKER_COUNT);
+    series->colour = look_shade(series->colour, variant);
     if (variant % 2 == 1)
         series->stroke = series->stroke == FM_STROKE_SOLID ? FM_STROKE_DASHED : FM_STROKE_SOLID;
 }
@@ -206,8 +207,26 @@ static bool same_paper_series(const fm_paper_point *a, const fm_paper_point *b)
     return strcmp(a->method, b->method) == 0 && strcmp(a->title, b->title) == 0 && a->at == b->at;
 }
 
-/* The paper's series that starts at point `first`. Where ours is there it needs no legend: colour
- * and marker are the same. */
+/* Where another of the paper's series of this method is drawn: how many come before it, by title;
+ * *is_single: there is none. */
+static size_t paper_variant(bool *is_single, const fm_figure_job *at, const fm_paper_point *one)
+{
+    const fm_paper_point *points = at->figure->points;
+    size_t variant = 0;
+    *is_single = true;
+    for (size_t i = 0; i < at->figure->point_count; i++) {
+        const bool starts = i == 0 || !same_paper_series(&points[i - 1], &points[i]);
+        if (!starts || strcmp(points[i].method, one->method) != 0 ||
+            strcmp(points[i].title, one->title) == 0 || !applies(at, &points[i]))
+            continue;
+        variant += &points[i] < one;
+        *is_single = false;
+    }
+    return variant;
+}
+
+/* The paper's series that starts at point `first`. Where ours is there, and the paper has no other
+ * of this method, it needs no legend: colour and marker are the same. */
 static void add_paper_series(fm_figure_job *at, size_t first)
 {
     const fm_paper_figure *figure = at->figure;
@@ -216,10 +235,13 @@ static void add_paper_series(fm_figure_job *at, size_t first)
     if (series == NULL)
         return;
     fm_method_info look = paper_look(at, one->method);
+    bool is_single;
+    const size_t variant = paper_variant(&is_single, at, one);
     style_series(series, &look);
+    series->colour = look_shade(series->colour, variant);
     series->hollow = true;
     series->stroke = FM_STROKE_DOTTED;
-    if (!has_method(at, one->method))
+    if (!has_method(at, one->method) || !is_single)
         snprintf(series->label, sizeof series->label, "%.80s, paper", one->title);
     for (size_t i = first; i < figure->point_count; i++) {
         const fm_paper_point *from = &figure->points[i];

@@ -35,6 +35,16 @@ fm_colour look_family_colour(fm_family family)
     return families[family].colour;
 }
 
+fm_colour look_shade(fm_colour colour, size_t variant)
+{
+    static const unsigned percent[] = { 100, 84, 68, 54, 40, 28 };
+    const size_t last = sizeof percent / sizeof percent[0] - 1;
+    const unsigned share = percent[variant < last ? variant : last];
+    return (fm_colour){ .r = (uint8_t)(colour.r * share / 100),
+                        .g = (uint8_t)(colour.g * share / 100),
+                        .b = (uint8_t)(colour.b * share / 100) };
+}
+
 fm_colour look_part_colour(size_t part)
 {
     return part_colours[part % FM_LOOK_PARTS];

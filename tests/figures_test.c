@@ -184,6 +184,16 @@ static void another_machine_draws_thin_curves(void **state)
     close_fixture(&with);
 }
 
+static void variants_of_a_method_are_darker(void **state)
+{
+    (void)state;
+    const fm_colour orange = look_family_colour(FM_FAMILY_A_BUFFER);
+    const fm_colour same = look_shade(orange, 0);
+    assert_memory_equal(&same, &orange, sizeof orange);
+    for (size_t i = 1; i < 6; i++)
+        assert_true(look_shade(orange, i).r < look_shade(orange, i - 1).r);
+}
+
 /* What fragmark-report exits with when b must take at most `most` times as long as a. */
 static int report_exit(const char *most)
 {
@@ -254,6 +264,7 @@ int main(void)
         cmocka_unit_test(frames_per_second_follow_from_the_time),
         cmocka_unit_test(grouped_bars_bear_the_papers_marks_of_their_workload),
         cmocka_unit_test(charts_may_run_along_any_column),
+        cmocka_unit_test(variants_of_a_method_are_darker),
         cmocka_unit_test(required_claim_that_fails_is_exit_code_1),
         cmocka_unit_test(a_run_is_no_reference_of_itself),
         cmocka_unit_test(another_machine_draws_thin_curves),
