@@ -399,6 +399,11 @@ bool instance_can_emit_again(const fm_instance *instance)
     return instance->method->loops[0].first == NULL;
 }
 
+bool instance_may_give_up(const fm_instance *instance)
+{
+    return instance->is_spin_locked && instance->device->caps.is_software;
+}
+
 fm_status instance_emit(fm_instance *instance, const fm_band *band, fm_error *err)
 {
     fm_frame_result result = { 0 };

@@ -9,7 +9,7 @@
 
 /* Of how many checked pixels the truth stays in memory. */
 enum { FORGET_PIXELS = 4096 };
-enum { SLOTS_SPARE = 4, LONG_FRAME_SAMPLES = 2, LOSSY_FRAMES = 4 };
+enum { SLOTS_SPARE = 4, LONG_FRAME_SAMPLES = 2, LOSSY_FRAMES = 16 };
 /* Captured fragments of one band: below every device's bound range. */
 #define BAND_BYTES (64ull << 20)
 
@@ -52,14 +52,12 @@ static uint64_t store_time(const fm_frame_result *frame, const fm_method_desc *m
     return sum;
 }
 
-/* On a software rasteriser a lock's owner may lose its processor for longer than all tries that its
- * loops allow: such a frame is counted and run again. What is lost every time is the method's own
- * loss. */
+/* A frame in which a lock was given up is counted and run again. What is lost every time is the
+ * method's own loss. */
 static fm_status frame_again_if_lossy(fm_frame_result *result, fm_measurement *measurement,
-                                      fm_instance *instance, const fm_band *band,
-                                      const fm_device *device, fm_error *err)
+                                      fm_instance *instance, const fm_band *band, fm_error *err)
 {
-    const int tries = device->caps.is_software ? LOSSY_FRAMES : 1;
+    const int tries = instance_may_give_up(instance) ? LOSSY_FRAMES : 1;
     fm_status status = FM_OK;
     for (int i = 0; i < tries && status == FM_OK; i++) {
         status = instance_frame(result, instance, band, err);
@@ -82,8 +80,7 @@ static fm_status sample_method(fm_sample *sample, fm_measurement *measurement,
                                const launch_pair *pair, fm_error *err)
 {
     fm_frame_result result;
-    fm_status status = frame_again_if_lossy(&result, measurement, pair->method, NULL,
-                                            pair->desc->method->stage->device, err);
+    fm_status status = frame_again_if_lossy(&result, measurement, pair->method, NULL, err);
     memcpy(sample->pass_ns, result.pass_ns, sizeof sample->pass_ns);
     sample->wall_ns = result.wall_ns;
     sample->canary_ns = result.canary_ns;
@@ -297,8 +294,7 @@ static fm_status check_bands(checking *check, fm_instance *instance, fm_error *e
         if (first > 0 && instance_can_emit_again(instance)) {
             status = instance_emit(instance, &band, err);
         } else {
-            status = frame_again_if_lossy(&result, check->measurement, instance, &band,
-                                          check->stage->device, err);
+            status = frame_again_if_lossy(&result, check->measurement, instance, &band, err);
             if (result.lost > check->measurement->lost)
                 check->measurement->lost = result.lost;
             check->measurement->culled = result.culled;
