@@ -232,8 +232,9 @@ static void write_layer(const row *r, tbr_buffers *buffers, const tbr_span *span
     uint32_t *layer = buffers->layer + y * LANES;
     int32_t *is_woz = buffers->is_woz + y * LANES;
     const int32_t woz = span->writes_depth ? -1 : 0;
+    const uint32_t own = span->layer; /* which no store may change: the loop is one of vectors */
     for (int i = 0; i < LANES; i++)
-        layer[i] = (r->mask[i] & r->opaque[i]) ? span->layer : layer[i];
+        layer[i] = (r->mask[i] & r->opaque[i]) ? own : layer[i];
     if (span->tracks_owner)
         for (int i = 0; i < LANES; i++)
             is_woz[i] = (r->mask[i] & r->opaque[i]) ? woz : is_woz[i];
