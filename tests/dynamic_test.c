@@ -34,11 +34,12 @@ static uint32_t expected_k(const fm_truth *truth, const budget *b)
     return k;
 }
 
-static void expect_choice(kit_scene *scene, const budget *b, uint32_t feed)
+static void expect_choice(kit_scene *scene, const budget *b, uint32_t feed, const char *kept_in)
 {
-    char texts[96], where[256];
+    char texts[128], where[256];
     fm_measurement m;
-    snprintf(texts, sizeof texts, "k=%u memory_mib=%u discard=%u", b->k, b->memory_mib, b->discard);
+    snprintf(texts, sizeof texts, "k=%u memory_mib=%u discard=%u kept_in=%s", b->k, b->memory_mib,
+             b->discard, kept_in);
     const kit_way way = { "kplus-dynamic", feed, texts };
     const uint32_t k = expected_k(scene->truth, b);
     kit_tell(where, &way);
@@ -58,6 +59,9 @@ static void expect_choice(kit_scene *scene, const budget *b, uint32_t feed)
     measurement_free(&m);
 }
 
+/* The first has the chosen k decide. */
+static const char *const kept_in[] = { "rule", "array", "heap" };
+
 static void expect_choices(void **state, const char *texts, const budget *budgets, size_t count)
 {
     scene_kit kit;
@@ -65,7 +69,8 @@ static void expect_choices(void **state, const char *texts, const budget *budget
     kit_open(&kit, device_of(state));
     kit_scene_open(&scene, &kit, texts);
     for (size_t i = 0; i < count; i++)
-        expect_choice(&scene, &budgets[i], FM_FEED_RASTER << i % 4);
+        for (size_t j = 0; j < sizeof kept_in / sizeof kept_in[0]; j++)
+            expect_choice(&scene, &budgets[i], FM_FEED_RASTER << (i + j) % 4, kept_in[j]);
     kit_scene_close(&scene);
     kit_close(&kit);
 }

@@ -4,12 +4,16 @@
 #endif
 #include "common/sort.glsl"
 
-// `count` fragments lie in the last slots.
+// Where the i-th of `count` fragments lies: in the last slots.
+#ifndef SLOT_OF
+#define SLOT_OF(i) (K - 1u - (i))
+#endif
+
 void resolve(uvec2 pixel)
 {
     uint count = counters[fm_pixel_index(pixel)];
     FM_LOOP for (uint i = 0u; i < count; ++i)
-        sorted[i] = fragments[array_slot(pixel, K - 1u - i, K)];
+        sorted[i] = fragments[array_slot(pixel, SLOT_OF(i), K)];
     sort_fragments(count);
     emit_sorted(pixel, count);
 }

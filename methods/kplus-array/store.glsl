@@ -1,22 +1,3 @@
 #include "common/array.glsl"
 #include "kplus-array/max_array.glsl"
-
-// Section 3.2, fragment culling: only what is nearer than the farthest kept one enters the section.
-bool wanted(uvec2 pixel, float depth)
-{
-    return beats_farthest(pixel, depth);
-}
-
-// All ways to store end in one write, since software rasterisers run both sides of every branch.
-void store(uvec2 pixel, float depth, uint colour)
-{
-    uint i = fm_pixel_index(pixel);
-    uint count = counters[i];
-    uvec2 fragment = fm_pack(depth, colour);
-    uint slot = place(pixel, count, fragment);
-    if (slot == K)
-        return;
-    fragments[array_slot(pixel, slot, K)] = fragment;
-    if (count < K)
-        counters[i] = count + 1u;
-}
+#include "common/keep_nearest.glsl"

@@ -10,7 +10,7 @@ const fm_method_desc fm_method = {
     .title = "K+B-Dynamic",
     .citation = "Vasilakis, Papaioannou, Fudos 2015, k+-buffer: An Efficient, Memory-Friendly and "
                 "Dynamic k-Buffer Framework, IEEE TVCG 21(6)",
-    .version = "1",
+    .version = "2",
     .traits = FM_TRAIT_EXACT | FM_TRAIT_SORTS_IN_RESOLVE,
     .keeps = FM_KEEPS_K_NEAREST,
     .k_total = "k",
@@ -24,6 +24,8 @@ const fm_method_desc fm_method = {
           .help = "per cent of all fragments that may be discarded" },
         { .name = "count", .values = { "tessellated", "flat" },
           .help = "the counting pass as all others, or without tessellation (flat layers)" },
+        { .name = "kept_in", .values = { "rule", "array", "heap" },
+          .help = "max-array, max-heap, or the papers' rule: the heap if the chosen k is above 16" },
         { .name = "layout", .values = { "pixel", "layer", "tile" },
           .help = "side by side: a pixel's, the i-th of all pixels, or of a tile" },
     },

@@ -1,12 +1,2 @@
-#include "common/array.glsl"
-#define SORT_CAPACITY K
-#include "common/sort.glsl"
-
-void resolve(uvec2 pixel)
-{
-    uint count = counters[fm_pixel_index(pixel)];
-    FM_LOOP for (uint i = 0u; i < count; ++i)
-        sorted[i] = fragments[array_slot(pixel, i, K)];
-    sort_fragments(count);
-    emit_sorted(pixel, count);
-}
+#define SLOT_OF(i) (i)
+#include "kplus-array/resolve.glsl"
