@@ -1,4 +1,4 @@
-/* A verdict of "unclear" says why. */
+/* A verdict of "unclear" says why, and one without a case which option was not to be had. */
 #include "claims_kit.h"
 
 /* b over a is 1, 1 and 1 at k 4, 8 and 16, each within a wide interval. */
@@ -47,11 +47,24 @@ static void decided_verdicts_are_not_called_unclear(void **state)
     assert_null(strstr(made.verdict.reason, "unclear"));
 }
 
+/* KB-SR has an option `samples`, and summary.csv a column. */
+static void an_option_goes_before_a_column_of_its_name(void **state)
+{
+    (void)state;
+    const fakes rows = { { { ROW("a", 4, 0.25, 10), .options = "samples=8" },
+                           { ROW("a", 4, 0.25, 90), .options = "samples=4" } } };
+    const judged made = judge_beside("at_most: 20\nof: { method: a, samples: 8 }\n", &rows, NULL);
+    assert_int_equal(made.verdict.kind, FM_VERDICT_HOLDS);
+    const judged other = judge_beside("at_most: 20\nof: { method: a, samples: 4 }\n", &rows, NULL);
+    assert_int_equal(other.verdict.kind, FM_VERDICT_FAILS);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(unclear_verdicts_say_why),
         cmocka_unit_test(decided_verdicts_are_not_called_unclear),
+        cmocka_unit_test(an_option_goes_before_a_column_of_its_name),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -56,10 +56,9 @@ bool match_row(const fm_selection *selection, const fm_claim_rows *rows, size_t 
         char option[128];
         const char *cell = option;
         const size_t column = table_column(table, selection->tests[i].key);
-        if (column != FM_TABLE_NO_COLUMN)
+        match_option(option, rows->results->cases[row].options, selection->tests[i].key);
+        if (option[0] == '\0' && column != FM_TABLE_NO_COLUMN)
             cell = table_cell(table, row, column);
-        else
-            match_option(option, rows->results->cases[row].options, selection->tests[i].key);
         if (!test_matches(&selection->tests[i], cell))
             return false;
     }
