@@ -19,35 +19,30 @@ const fm_method_desc fm_method = {
           .help = "of depth in a tile" },
     },
     .resources = {
-        { .name = "range", .extent = { .constant = 2 } },
-        { .name = "groups", .extent = { .constant = 4 } }, /* x y z of a dispatch; large ones */
-        { .name = "allocated", .extent = { .constant = 1 } },
+        { .name = "groups", .extent = { .constant = 7 } }, /* words: tile-k/layout.glsl */
+        { .name = "fill_groups", .extent = { .constant = 3 } }, /* x y z of a dispatch */
         { .name = "large", .extent = { .per_triangle = 1 } },
-        { .name = "bins", .extent = { .per_tile = 33 } }, /* TILE_WORDS of tile-k/layout.glsl */
+        { .name = "bins", .extent = { .per_tile = 66 } }, /* BLOCKS BIN_WORDS */
         { .name = "pairs", .sizing = FM_SIZE_AFTER_TOTAL,
           .extent = { .per_total = 1, .total = "pairs" } },
         { .name = "sink", .extent = { .constant = 1 } },
     },
-    .totals = { { .name = "pairs", .resource = "allocated", .pass = "reference" } },
+    .totals = { { .name = "pairs", .resource = "groups", .index = 4, .pass = "reference" } },
     .passes = {
-        { .name = "clear", .kind = FM_PASS_CLEAR, .writes = { "bins", "groups", "allocated" } },
-        { .name = "clear-range", .kind = FM_PASS_CLEAR, .writes = { "range" },
-          .clear_word = 0xFFFFFFFFu },
+        { .name = "clear", .kind = FM_PASS_CLEAR, .writes = { "bins", "groups" } },
         { .name = "range-of-depths", .kind = FM_PASS_TILES, .shader = "tile-k/range.glsl",
-          .writes = { "range" } },
+          .writes = { "groups" } },
         { .name = "count", .kind = FM_PASS_TRIANGLES, .shader = "tile-k/count.glsl",
-          .reads = { "range" }, .writes = { "bins", "groups", "large" } },
+          .writes = { "bins", "groups", "large" } },
         { .name = "count-large", .kind = FM_PASS_INDIRECT, .indirect = "groups",
-          .shader = "tile-k/count_large.glsl", .reads = { "range", "groups", "large" },
+          .shader = "tile-k/count_large.glsl", .reads = { "groups", "large" },
           .writes = { "bins" } },
-        { .name = "reference", .kind = FM_PASS_TILES, .shader = "tile-k/reference.glsl",
-          .reads = { "range" }, .writes = { "bins", "allocated" } },
-        { .name = "fill", .kind = FM_PASS_TRIANGLES, .shader = "tile-k/fill.glsl",
-          .reads = { "range" }, .writes = { "bins", "pairs" } },
-        { .name = "fill-large", .kind = FM_PASS_INDIRECT, .indirect = "groups",
-          .shader = "tile-k/fill_large.glsl", .reads = { "range", "groups", "large" },
+        { .name = "reference", .kind = FM_PASS_TILES, .lanes = FM_GROUP_LANES, .shader = "tile-k/reference.glsl",
+          .writes = { "bins", "groups", "fill_groups" } },
+        { .name = "fill", .kind = FM_PASS_INDIRECT, .indirect = "fill_groups",
+          .shader = "tile-k/fill.glsl", .reads = { "groups", "fill_groups", "large" },
           .writes = { "bins", "pairs" } },
         { .name = "store", .kind = FM_PASS_TILES, .lanes = FM_GROUP_LANES,
-          .shader = "store.glsl", .reads = { "range", "bins", "pairs" }, .writes = { "sink" } },
+          .shader = "store.glsl", .reads = { "groups", "bins", "pairs" }, .writes = { "sink" } },
     },
 };

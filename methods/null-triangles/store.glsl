@@ -1,4 +1,4 @@
-// Every triangle of the tile is set up and tested, every fragment's depth and number are consumed, none
+// Every triangle of the block is set up and tested, every fragment's depth and number are consumed, none
 // is kept.
 #define MAY_RESUME false
 #include "tile-k/scan.glsl"
@@ -26,5 +26,6 @@ void take(uvec2 key)
 void store(uint tile)
 {
     own_pixel = uvec2(tile % TILES_X, tile / TILES_X) * 8u + pixel_in_tile(this_place());
-    scan(tile, bins[tile * TILE_WORDS + BUCKETS], own_pixel);
+    uint bin = own_bin(tile);
+    scan(bin, bins[bin * BIN_WORDS + BUCKETS], own_pixel);
 }

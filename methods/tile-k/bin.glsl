@@ -1,56 +1,43 @@
-// A triangle's tiles, each by an exact test of its edges. Who includes this defines
-//   void put(uint tile, uint bucket, uint pair)   what happens to a pair
-//   void put_off(uint triangle)                   a triangle with a large part: for the list
+// A triangle's blocks, each by an exact test of its edges. Who includes this defines
+//   void put(uint bin, uint bucket, uint pair)   what happens to a pair
 #include "common/rasterise.glsl"
 #include "tile-k/layout.glsl"
 
-void put(uint tile, uint bucket, uint pair);
-void put_off(uint triangle);
+void put(uint bin, uint bucket, uint pair);
 
-// Tiles first, first + stride, ... of its box.
-void bin_part(fm_setup t, uint pair, uint first, uint stride)
+// Blocks first, first + stride, ... of its box, which has `across` columns and `count` in all.
+void bin_part(fm_setup t, uint pair, uvec2 blocks, uvec2 first_and_stride)
 {
-    ivec4 box = t.box >> 3;
-    uint across = uint(box.z - box.x) + 1u, count = across * (uint(box.w - box.y) + 1u);
+    ivec2 corner = t.box.xy >> BLOCK_SHIFT;
     uint bucket = bucket_of(t.z_least);
-    FM_LOOP for (uint i = first; i < count; i += stride) {
-        ivec2 tile = box.xy + ivec2(i % across, i / across);
-        if (fm_may_cover(t, fm_edges_at(t, tile * 8), ivec2(8)))
-            put(uint(tile.y) * TILES_X + uint(tile.x), bucket, pair);
+    FM_LOOP for (uint i = first_and_stride.x; i < blocks.y; i += first_and_stride.y) {
+        ivec2 block = corner + ivec2(i % blocks.x, i / blocks.x);
+        if (fm_may_cover(t, fm_edges_at(t, block << BLOCK_SHIFT), BLOCK_PX))
+            put(bin_of(block), bucket, pair);
     }
 }
 
-bool is_large(fm_setup t)
+// Columns and blocks of its box.
+uvec2 blocks_of(fm_setup t)
 {
-    ivec4 box = t.box >> 3;
-    return uint(box.z - box.x + 1) * uint(box.w - box.y + 1) > SMALL_TILES;
+    ivec2 size = (t.box.zw >> BLOCK_SHIFT) - (t.box.xy >> BLOCK_SHIFT) + 1;
+    return uvec2(size.x, size.x * size.y);
 }
 
-void bin_small(uint triangle)
+// The parts that are large, or those that are not; whether there were others.
+bool bin_triangle(uint triangle, bool wants_large, uvec2 first_and_stride)
 {
     fm_setup t;
-    read_range();
+    bool has_others = false;
     uint parts = fm_parts(triangle);
-    bool any_large = false;
     FM_LOOP for (uint part = 0u; part < parts; ++part) {
         if (!fm_set_up(t, part))
             continue;
-        if (is_large(t))
-            any_large = true;
+        uvec2 blocks = blocks_of(t);
+        if ((blocks.y > SMALL_BLOCKS) == wants_large)
+            bin_part(t, triangle | part << PART_SHIFT, blocks, first_and_stride);
         else
-            bin_part(t, triangle | part << PART_SHIFT, 0u, 1u);
+            has_others = true;
     }
-    if (any_large)
-        put_off(triangle);
-}
-
-// By all lanes of a workgroup.
-void bin_large(uint triangle, uint lane)
-{
-    fm_setup t;
-    read_range();
-    uint parts = fm_parts(triangle);
-    FM_LOOP for (uint part = 0u; part < parts; ++part)
-        if (fm_set_up(t, part) && is_large(t))
-            bin_part(t, triangle | part << PART_SHIFT, lane, uint(FM_GROUP_LANES));
+    return has_others;
 }

@@ -4,7 +4,7 @@
 shared uint depths[FM_GROUP_LANES * LANES]; // [subgroup][pixel][triangle]
 shared uint numbers[FM_GROUP_LANES];
 
-void scan_chunk(lane_triangle mine, uvec2 pixel, ivec2 block)
+void scan_chunk(lane_triangle mine, uvec2 pixel, ivec2 corner)
 {
     uint base = this_place() - this_lane(), own = 0u;
     subgroup_fence(); // the last chunk's have been read
@@ -15,7 +15,7 @@ void scan_chunk(lane_triangle mine, uvec2 pixel, ivec2 block)
         uint covering = votes(mine.is_there && (edges.x | edges.y | edges.z) >= 0);
         own = i == this_lane() ? covering : own;
         depths[(base + i) * uint(LANES) + this_lane()] = fm_depth_bits(
-            block + at, mine.xy, mine.z, mine.dz_dx, mine.dz_dy, mine.z_least, mine.z_most);
+            corner + at, mine.xy, mine.z, mine.dz_dx, mine.dz_dy, mine.z_least, mine.z_most);
     }
     subgroup_fence();
     FM_LOOP while (own != 0u) { // bit j: triangle j covers this lane's pixel

@@ -27,7 +27,7 @@ uint find_own(lane_triangle mine)
     return own;
 }
 
-void scan_chunk(lane_triangle mine, uvec2 pixel, ivec2 block)
+void scan_chunk(lane_triangle mine, uvec2 pixel, ivec2 corner)
 {
     share_planes(mine);
     uint own = find_own(mine), base = 2u * (this_place() - this_lane());

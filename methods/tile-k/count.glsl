@@ -1,15 +1,15 @@
 // Pairs of each bin; large triangles into their list.
 #include "tile-k/bin.glsl"
 
-void put(uint tile, uint bucket, uint pair)
+void put(uint bin, uint bucket, uint pair)
 {
-    atomicAdd(bins[tile * TILE_WORDS + bucket], 1u); // a sum: the order does not matter
+    atomicAdd(bins[bin * BIN_WORDS + bucket], 1u); // a sum: the order does not matter
 }
 
 // The list's dispatch grows with it: x up to 256 groups, then y.
 void put_off(uint triangle)
 {
-    uint at = atomicAdd(groups[3], 1u); // unique; the list's order does not matter
+    uint at = atomicAdd(groups[LARGE], 1u); // unique; the list's order does not matter
     large[at] = triangle;
     atomicMax(groups[0], min(at + 1u, 256u));
     atomicMax(groups[1], at / 256u + 1u);
@@ -18,5 +18,7 @@ void put_off(uint triangle)
 
 void count(uint triangle)
 {
-    bin_small(triangle);
+    read_range();
+    if (bin_triangle(triangle, false, uvec2(0u, 1u)))
+        put_off(triangle);
 }

@@ -1,15 +1,15 @@
+// A workgroup for each large triangle.
 #include "tile-k/bin.glsl"
 
-void put(uint tile, uint bucket, uint pair)
+void put(uint bin, uint bucket, uint pair)
 {
-    atomicAdd(bins[tile * TILE_WORDS + bucket], 1u); // a sum: the order does not matter
-}
-void put_off(uint triangle)
-{
+    atomicAdd(bins[bin * BIN_WORDS + bucket], 1u); // a sum: the order does not matter
 }
 
 void count_large(uint i)
 {
-    if (i / uint(FM_GROUP_LANES) < groups[3])
-        bin_large(large[i / uint(FM_GROUP_LANES)], fm_lane);
+    uint at = i / uint(FM_GROUP_LANES);
+    read_range();
+    if (at < groups[LARGE])
+        bin_triangle(large[at], true, uvec2(fm_lane, FM_GROUP_LANES));
 }

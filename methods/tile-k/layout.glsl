@@ -1,16 +1,40 @@
-// Bins: a tile of 8 x 8 pixels, and in it 32 buckets of depth by a triangle's least z. bins holds 33
-// words a tile: while counting, each bucket's pairs; then where each bucket's next pair goes, and at
-// the end where it ends; the last word is where the tile's pairs begin.
+// Bins: a tile of 8 x 8 pixels has BLOCKS blocks, each with 32 buckets of depth by a triangle's least
+// z. bins holds 33 words a block: while counting, each bucket's pairs; then where each bucket's next
+// pair goes, and at the end where it ends; the last word is where the block's pairs begin.
+#include "tile-k/lanes.glsl"
+
 const uint BUCKETS = 32u;
-const uint TILE_WORDS = BUCKETS + 1u;
+const uint BIN_WORDS = BUCKETS + 1u;
 const uint TILES_X = (uint(FM_WIDTH) + 7u) / 8u;
+
+// Blocks of 8 x 4, as many pixels as a wide subgroup has lanes: small triangles lie in one half of a
+// tile, and the other half need not look at them. method.c allocates BLOCKS * BIN_WORDS a tile.
+const uint BLOCKS = 2u;
+const ivec2 BLOCK_SHIFT = ivec2(3, 2);
+const ivec2 BLOCK_PX = ivec2(8, 4);
+
+// The bin of the block at `block`, in blocks.
+uint bin_of(ivec2 block)
+{
+    uvec2 tile = uvec2(block.x, block.y >> 1);
+    return (tile.y * TILES_X + tile.x) * BLOCKS + (uint(block.y) & 1u);
+}
+
+// groups[]: x y z of the large triangles' dispatch, and more words that begin as 0.
+const uint LARGE = 3u; // how many there are
+const uint ALLOCATED = 4u; // pairs
+const uint LEAST = 5u; // of a sample of depths: the bits, inverted
+const uint MOST = 6u;
+
+// Groups that take the small triangles in `fill`; large ones have groups behind them.
+const uint SMALL_GROUPS = (uint(FM_TRIANGLES) + uint(FM_GROUP_LANES) - 1u) / uint(FM_GROUP_LANES);
 
 // A pair is the triangle's number and, above 29 bits, which part of a clipped one.
 const uint PART_SHIFT = 29u;
 const uint TRIANGLE_MASK = (1u << PART_SHIFT) - 1u;
 
-// Triangles whose box has more tiles go to a list: a workgroup for each.
-const uint SMALL_TILES = 16u;
+// Triangles whose box has more blocks go to a list: a workgroup for each.
+const uint SMALL_BLOCKS = 32u;
 
 // Which bucket a depth falls into: never falls as z rises, which is all that exactness needs. The
 // range of depths is a sample's (range.glsl), so it may be any; `precise`, as passes must agree.
@@ -18,9 +42,9 @@ float nearest_depth, buckets_per_depth;
 
 void read_range()
 {
-    bool is_known = range[0] <= 0x3F800000u;
-    nearest_depth = is_known ? uintBitsToFloat(range[0]) : 0.0;
-    float farthest = is_known ? uintBitsToFloat(~range[1]) : 1.0;
+    bool is_known = groups[LEAST] != 0u;
+    nearest_depth = is_known ? uintBitsToFloat(~groups[LEAST]) : 0.0;
+    float farthest = is_known ? uintBitsToFloat(groups[MOST]) : 1.0;
     precise float width = max(farthest - nearest_depth, 1e-30);
     precise float scale = float(USED_BUCKETS) * fm_reciprocal(width);
     buckets_per_depth = scale;

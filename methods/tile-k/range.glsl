@@ -13,8 +13,9 @@ void range_of_depths(uint i)
         return;
     uint parts = fm_parts(i * (uint(FM_TRIANGLES) / SAMPLES));
     FM_LOOP for (uint part = 0u; part < parts; ++part)
-        if (fm_set_up(t, part)) { // least of all: any order is right
-            atomicMin(range[0], floatBitsToUint(t.z_least) & 0x7FFFFFFFu);
-            atomicMin(range[1], ~(floatBitsToUint(t.z_least) & 0x7FFFFFFFu));
+        if (fm_set_up(t, part)) { // the extremes of all: any order is right
+            uint bits = floatBitsToUint(t.z_least) & 0x7FFFFFFFu;
+            atomicMax(groups[LEAST], ~bits);
+            atomicMax(groups[MOST], bits);
         }
 }

@@ -1,4 +1,4 @@
-// The triangles of a tile, bucket by bucket, against a block of pixels, one pixel a lane. Who includes
+// The triangles of a block, bucket by bucket, against pixels of it, one a lane. Who includes
 // this defines
 //   bool is_full()               nothing more is wanted at this pixel
 //   void advance(uint bucket)    every fragment to come lies in this bucket or behind it
@@ -8,7 +8,6 @@
 // The scan ends early, or at the list's end, or gives up, which is_cut tells.
 #include "common/rasterise.glsl"
 #include "tile-k/layout.glsl"
-#include "tile-k/lanes.glsl"
 
 bool is_full();
 void advance(uint bucket);
@@ -32,39 +31,46 @@ bool may_go_on()
     return !is_cut;
 }
 
-// What a lane knows of its triangle, for the block.
+// What a lane knows of its triangle, for the lanes' pixels.
 struct lane_triangle {
-    ivec3 a, b, edges; // at the block's corner
+    ivec3 a, b, edges; // at the first lane's pixel
     vec2 xy;
     float z, dz_dx, dz_dy, z_least, z_most;
     uint number;
-    bool is_there; // and may cover the block
+    bool is_there; // and may cover one of them
 };
 
-lane_triangle set_up_lane(uint at, uint last, ivec2 block)
+// The pair of this lane in the chunk at `at`; behind the end, the last one.
+uint pair_at(uint at, uint last)
+{
+    return pairs[min(at + this_lane(), last - 1u)];
+}
+
+#if FM_CLIPS
+#define number_of(pair) ((pair) & TRIANGLE_MASK)
+#define part_of(pair) ((pair) >> PART_SHIFT)
+#else
+#define number_of(pair) (pair)
+#define part_of(pair) 0u
+#endif
+
+// After fm_parts(number_of(pair)).
+lane_triangle set_up_lane(uint pair, bool is_in, ivec2 corner)
 {
     lane_triangle l;
     fm_setup t;
-    uint pair = at < last ? pairs[at] : pairs[last - 1u];
-#if FM_CLIPS
-    l.number = pair & TRIANGLE_MASK;
-    fm_parts(l.number);
-    fm_set_up(t, pair >> PART_SHIFT);
-#else
-    l.number = pair;
-    fm_parts(l.number);
-    fm_set_up(t, 0u);
-#endif
+    l.number = number_of(pair);
+    fm_set_up(t, part_of(pair));
     l.a = t.a;
     l.b = t.b;
-    l.edges = fm_edges_at(t, block);
+    l.edges = fm_edges_at(t, corner);
     l.xy = vec2(t.x[0], t.y[0]);
     l.z = t.z;
     l.dz_dx = t.dz_dx;
     l.dz_dy = t.dz_dy;
     l.z_least = t.z_least;
     l.z_most = t.z_most;
-    l.is_there = at < last && fm_may_cover(t, l.edges, ivec2(BLOCK_W, BLOCK_H));
+    l.is_there = is_in && fm_may_cover(t, l.edges, ivec2(LANES_W, LANES_H));
     return l;
 }
 
@@ -78,24 +84,51 @@ void subgroup_fence()
 #endif
 }
 
-#if LANES == 32
+#if IS_WIDE
 #include "tile-k/chunk_wide.glsl"
 #else
 #include "tile-k/chunk_narrow.glsl"
 #endif
 
-// From the pair `from` on. Returns where a further round may start: the chunks before it hold nothing
-// that lies behind what was final when the first fragment found no room (is_short()).
-uint scan(uint tile, uint from, uvec2 pixel)
+// The bin of this lane's pixel.
+uint own_bin(uint tile)
+{
+    return tile * BLOCKS + this_place() / (uint(FM_GROUP_LANES) / BLOCKS);
+}
+
+// The first bucket that ends behind the pair `at`, which is not before the bucket `from`.
+uint bucket_behind(uint at, uint own_end, uint ends, uint from)
+{
+#if LANES == 32
+    return uint(bitCount(votes(own_end <= at))); // lane i: where bucket i ends
+#else
+    FM_LOOP while (bins[ends + from] <= at)
+        ++from;
+    return from;
+#endif
+}
+
+// Where lanes wait for memory, what the next chunk needs is asked for before this one is scanned.
+const bool FETCHES_AHEAD = LANES == 32;
+
+// From the pair `from` of a bin on. Returns where a further round may start: the chunks before it hold
+// nothing that lies behind what was final when the first fragment found no room (is_short()).
+uint scan(uint bin, uint from, uvec2 pixel)
 {
     read_range();
-    uint ends = tile * TILE_WORDS, last = bins[ends + BUCKETS - 1u];
-    ivec2 block = ivec2(pixel - pixel_in_tile(this_lane()));
+    uint ends = bin * BIN_WORDS, last = bins[ends + BUCKETS - 1u];
+    uint own_end = bins[ends + this_lane()];
+    ivec2 corner = ivec2(pixel - pixel_in_tile(this_lane()));
     uint resume = from, chunk = from, bucket = 0u;
     uint reach_before = 0u, reach = 0u; // farthest buckets of this lane's triangles: but the last; the last
+    uint pair = 0u, next = 0u; // this chunk's and the next one's
+    if (FETCHES_AHEAD && chunk < last) {
+        pair = pair_at(chunk, last);
+        next = pair_at(chunk + uint(LANES), last);
+        fm_parts(number_of(pair));
+    }
     FM_LOOP while (chunk < last) {
-        FM_LOOP while (bins[ends + bucket] <= chunk)
-            ++bucket;
+        bucket = bucket_behind(chunk, own_end, ends, bucket);
         advance(bucket);
         iterations += 2u;
         if (!may_go_on() || votes(!is_full()) == 0u)
@@ -104,11 +137,20 @@ uint scan(uint tile, uint from, uvec2 pixel)
             resume = chunk - uint(LANES);
         uint end = bins[ends + bucket];
         FM_LOOP do { // chunks that begin in this bucket
-            lane_triangle mine = set_up_lane(chunk + this_lane(), last, block);
+            if (!FETCHES_AHEAD) {
+                pair = pair_at(chunk, last);
+                fm_parts(number_of(pair));
+            }
+            lane_triangle mine = set_up_lane(pair, chunk + this_lane() < last, corner);
+            chunk += uint(LANES);
+            if (FETCHES_AHEAD) {
+                pair = next;
+                fm_parts(number_of(pair));
+                next = pair_at(chunk + uint(LANES), last);
+            }
             reach_before = max(reach_before, reach);
             reach = mine.is_there ? bucket_of(mine.z_most) : 0u;
-            scan_chunk(mine, pixel, block);
-            chunk += uint(LANES);
+            scan_chunk(mine, pixel, corner);
         } while (chunk < end && may_go_on());
     }
     return resume;

@@ -1,12 +1,20 @@
 // The tile pass. Triangles come bucket by bucket, nearest first, so a fragment that lies in an earlier
 // bucket than all triangles to come is final: it is composited at once and forgotten. Kept is only a
 // window of the nearest fragments that are not final, so that k is but a count. What falls out of a full
-// window is not lost: a further round over the tile's triangles takes up behind the last one composited.
+// window is not lost: a further round over the block's triangles takes up behind the last one composited.
 #define NO_KEY uvec2(0xFFFFFFFFu)
-#if K < WINDOW
+// Measured (README): where registers hold the window, places cost; elsewhere rounds do.
+#if WINDOW != 0
+#define ROOM WINDOW
+#elif FM_HAS_SUBGROUP_BALLOT && FM_SUBGROUP_SIZE == 32
+#define ROOM 32
+#else
+#define ROOM 8
+#endif
+#if K < ROOM
 #define CAPACITY K
 #else
-#define CAPACITY WINDOW
+#define CAPACITY ROOM
 #endif
 #define MAY_RESUME (K > CAPACITY)
 
@@ -82,12 +90,12 @@ void store(uint tile)
     resumes = uvec2(0u);
     if (is_inside)
         fm_emit_begin(own_pixel);
-    uint first = bins[tile * TILE_WORDS + BUCKETS];
+    uint bin = own_bin(tile), first = bins[bin * BIN_WORDS + BUCKETS];
     has_more = is_inside;
     FM_LOOP while (votes(has_more) != 0u && may_go_on()) {
         fallen = NO_KEY;
         window_clear();
-        first = scan(tile, first, own_pixel);
+        first = scan(bin, first, own_pixel);
         advance(BUCKETS); // all that is left is final
         has_more = has_more && emitted < uint(K) && fallen != NO_KEY;
     }
