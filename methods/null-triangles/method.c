@@ -37,7 +37,7 @@ const fm_method_desc fm_method = {
         { .name = "count-large", .kind = FM_PASS_INDIRECT, .indirect = "groups",
           .shader = "tile-k/count_large.glsl", .reads = { "groups", "large" },
           .writes = { "bins" } },
-        { .name = "reference", .kind = FM_PASS_TILES, .lanes = FM_GROUP_LANES, .shader = "tile-k/reference.glsl",
+        { .name = "reference", .kind = FM_PASS_TILES, .lanes = 2, .shader = "tile-k/reference.glsl",
           .writes = { "bins", "groups", "fill_groups" } },
         { .name = "fill", .kind = FM_PASS_INDIRECT, .indirect = "fill_groups",
           .shader = "tile-k/fill.glsl", .reads = { "groups", "fill_groups", "large" },

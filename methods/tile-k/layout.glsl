@@ -7,17 +7,22 @@ const uint BUCKETS = 32u;
 const uint BIN_WORDS = BUCKETS + 1u;
 const uint TILES_X = (uint(FM_WIDTH) + 7u) / 8u;
 
-// Blocks of 8 x 4, as many pixels as a wide subgroup has lanes: small triangles lie in one half of a
-// tile, and the other half need not look at them. method.c allocates BLOCKS * BIN_WORDS a tile.
+// A wide subgroup covers 8 x 4 pixels: small triangles lie in one half of a tile, and the other half
+// need not look at them. Elsewhere more pairs cost more than they save. method.c allocates for two.
+#if LANES == 32
 const uint BLOCKS = 2u;
 const ivec2 BLOCK_SHIFT = ivec2(3, 2);
-const ivec2 BLOCK_PX = ivec2(8, 4);
+#else
+const uint BLOCKS = 1u;
+const ivec2 BLOCK_SHIFT = ivec2(3, 3);
+#endif
+const ivec2 BLOCK_PX = ivec2(1) << BLOCK_SHIFT;
 
 // The bin of the block at `block`, in blocks.
 uint bin_of(ivec2 block)
 {
-    uvec2 tile = uvec2(block.x, block.y >> 1);
-    return (tile.y * TILES_X + tile.x) * BLOCKS + (uint(block.y) & 1u);
+    uint row = uint(block.y);
+    return (row / BLOCKS * TILES_X + uint(block.x)) * BLOCKS + row % BLOCKS;
 }
 
 // groups[]: x y z of the large triangles' dispatch, and more words that begin as 0.
@@ -34,7 +39,7 @@ const uint PART_SHIFT = 29u;
 const uint TRIANGLE_MASK = (1u << PART_SHIFT) - 1u;
 
 // Triangles whose box has more blocks go to a list: a workgroup for each.
-const uint SMALL_BLOCKS = 32u;
+const uint SMALL_BLOCKS = 16u * BLOCKS;
 
 // Which bucket a depth falls into: never falls as z rises, which is all that exactness needs. The
 // range of depths is a sample's (range.glsl), so it may be any; `precise`, as passes must agree.

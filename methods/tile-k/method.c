@@ -41,7 +41,7 @@ const fm_method_desc fm_method = {
         { .name = "count-large", .kind = FM_PASS_INDIRECT, .indirect = "groups",
           .shader = "count_large.glsl", .reads = { "groups", "large" },
           .writes = { "bins" } },
-        { .name = "reference", .kind = FM_PASS_TILES, .lanes = FM_GROUP_LANES, .shader = "reference.glsl",
+        { .name = "reference", .kind = FM_PASS_TILES, .lanes = 2, .shader = "reference.glsl",
           .writes = { "bins", "groups", "fill_groups" } },
         { .name = "fill", .kind = FM_PASS_INDIRECT, .indirect = "fill_groups",
           .shader = "fill.glsl", .reads = { "groups", "fill_groups", "large" },
