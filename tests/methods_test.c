@@ -386,15 +386,16 @@ static void expect_own_options(kit_scene *scene, const fm_method_desc *method, u
         }
 }
 
-/* What a method without a lock gives where it races is chance, and so is the order of arrival on
- * compute feeds. */
+/* What a method without a lock gives where it races is chance, and so is the order of arrival but on
+ * the raster feed of software, one thread a tile. */
 static bool is_comparable(const scene_kit *kit, const fm_method_desc *method, uint32_t feed)
 {
     const bool races = kit_races(kit, method, feed);
     if (races && feed == FM_FEED_RASTER)
         print_message("skipped: %s races on %s\n", method->id, kit->device->caps.name);
     return (kit_feeds(method) & feed) != 0 && !races &&
-           (feed == FM_FEED_RASTER || (method->traits & FM_TRAIT_SORTED_INPUT) == 0);
+           ((feed == FM_FEED_RASTER && kit->device->caps.is_software) ||
+            (method->traits & FM_TRAIT_SORTED_INPUT) == 0);
 }
 
 static void options_change_no_fragment(void **state)
