@@ -53,8 +53,8 @@ fm_status instance_frame(fm_frame_result *result, fm_instance *instance, const f
 /* The emitting passes again, for another band; only if instance_can_emit_again. */
 fm_status instance_emit(fm_instance *instance, const fm_band *band, fm_error *err);
 bool instance_can_emit_again(const fm_instance *instance);
-/* On a software rasteriser a spin lock's owner may lose its processor for longer than all tries that
- * the waiting one's loops allow: then a frame loses fragments that the next one keeps. */
+/* On a software rasteriser a spin lock's owner may lose its processor for longer than all tries
+ * that the waiting one's loops allow: then a frame loses fragments that the next one keeps. */
 bool instance_may_give_up(const fm_instance *instance);
 
 /* Fragments that reach the method, for its formulas: fewer than the scene has, if some are culled
