@@ -386,8 +386,8 @@ static void expect_own_options(kit_scene *scene, const fm_method_desc *method, u
         }
 }
 
-/* What a method without a lock gives where it races is chance, and so is the order of arrival but on
- * the raster feed of software, one thread a tile. */
+/* What a method without a lock gives where it races is chance, and so is the order of arrival but
+ * on the raster feed of software, one thread a tile. */
 static bool is_comparable(const scene_kit *kit, const fm_method_desc *method, uint32_t feed)
 {
     const bool races = kit_races(kit, method, feed);
