@@ -37,9 +37,13 @@
  *                 fm_emit_end(pixel), once for every pixel of the viewport
  *                 fm_blended(pixel, colour), instead, hands over one vec4 (premultiplied) where an
  *                 approximation has a colour and no fragments: the image is then its only error
+ *   a fragment    in 8 bytes is fm_pack(depth, colour), a uvec2 whose .x compares as the depth
+ *                 does; FM_EMPTY_BITS is farther than any (common/prelude.glsl)
  *   losses        fm_lost(pixel) counts a fragment that found no room
  *   events        fm_culled(), fm_locked() count in the checked build only
- *   loops         fm_iteration is the number of the running iteration, from 0
+ *   loops         fm_iteration is the number of the running iteration, from 0. FM_LOOP before a
+ *                 for or while keeps it from being unrolled: pipelines compile in less time
+ *   order         fm_fence() between two accesses that others must see in this order
  *   devices       FM_SUBGROUP_SIZE; FM_HAS_FEATURE is 1 or 0 for each of features_optional;
  *                 FM_LOOP_LIMIT iterations of all loops of an invocation, 0: any
  * colour is RGBA8, red in the low byte, premultiplied by alpha; depth is in [0,1]. */
