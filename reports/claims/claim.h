@@ -23,11 +23,13 @@
  *   formula  { constant, per_pixel, per_pixel_k, per_pixel_n, per_fragment }: no row, but bytes
  *            worked out for the row of `of`
  *   table    summary (default) or memory: memory.csv, with its columns
- *   others   tests on an option, else on a column of that name: a value, a list of values, or ">=
- * 16", "< 16", "not 16" `minus`, `over` and `over_minus` take over from `of` what they do not name,
- * and each row of `of` is paired with the row of the same workload; columns that they name
- * themselves may differ. A point is (of - minus) / (over - over_minus), with an interval. `only`
- * rows of the figure's own cases count.
+ *   others   tests on an option, else on a column of that name: a value ("": empty, or no such
+ *            option), a list of values, or ">= 16", "< 16", "not 16"
+ *
+ * `minus`, `over` and `over_minus` take over from `of` what they do not name, and each row of `of`
+ * is paired with the row of the same workload; columns that they name themselves may differ. A
+ * point is (of - minus) / (over - over_minus), with an interval. Only rows of the figure's own
+ * cases count.
  *
  * Forms, and what they need (bounds: at_least, at_most, equals; tolerance, a share of the bound,
  * widens each of them; the default is 0):
