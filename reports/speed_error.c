@@ -17,7 +17,7 @@ static double error_of(const fm_case_row *result)
 
 static bool has_point(const fm_case_row *result)
 {
-    return result->is_measured && isfinite(result->total_rmse);
+    return result->is_measured && !result->is_simulated && isfinite(result->total_rmse);
 }
 
 static bool is_candidate(const fm_case_row *result)
