@@ -1,10 +1,8 @@
 #include "progress.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "clock.h"
-#include "stats.h"
 
 static const double plain_interval_s = 10.0;
 
@@ -19,13 +17,10 @@ void duration_text(char text[32], double seconds)
         snprintf(text, 32, "%ld s", all);
 }
 
+/* By the mean: launches come in random order, and few long ones make up most of the time. */
 static double seconds_left(const fm_progress *progress)
 {
-    double recent[FM_PROGRESS_RECENT];
-    const uint32_t count =
-        progress->finished < FM_PROGRESS_RECENT ? progress->finished : FM_PROGRESS_RECENT;
-    memcpy(recent, progress->recent_s, sizeof recent);
-    return stats_median(recent, count) * (progress->total - progress->done);
+    return progress->finished_s / progress->finished * (progress->total - progress->done);
 }
 
 static void write_state(fm_progress *progress, double now)
@@ -62,7 +57,13 @@ void progress_begin(fm_progress *progress, const char *current)
 
 void progress_end(fm_progress *progress, double seconds)
 {
-    progress->recent_s[progress->finished++ % FM_PROGRESS_RECENT] = seconds;
+    progress->finished_s += seconds;
+    progress->finished++;
+    progress_skip(progress);
+}
+
+void progress_skip(fm_progress *progress)
+{
     progress->done++;
     if (progress->done == progress->total)
         progress->written_s = 0.0; /* the last one is always told */

@@ -6,8 +6,6 @@
 #include <stdint.h>
 #include <stdio.h>
 
-enum { FM_PROGRESS_RECENT = 101 }; /* launches whose median foretells the rest */
-
 /* Starts as {0} with out, is_terminal and total set. */
 typedef struct fm_progress {
     FILE *out;        /* NULL: silent */
@@ -15,7 +13,7 @@ typedef struct fm_progress {
     uint32_t total, done;
     char current[160]; /* what runs now */
     double started_s, written_s;
-    double recent_s[FM_PROGRESS_RECENT];
+    double finished_s; /* what they took, one after the other */
     uint32_t finished; /* here, not in an earlier process */
 } fm_progress;
 
@@ -23,6 +21,8 @@ void progress_begin(fm_progress *progress, const char *current);
 void progress_tick(fm_progress *progress);
 /* One more launch is done, after so many seconds. */
 void progress_end(fm_progress *progress, double seconds);
+/* One more is there already, from an earlier process: it tells nothing of the time left. */
+void progress_skip(fm_progress *progress);
 /* Ends the line on a terminal. */
 void progress_close(fm_progress *progress);
 

@@ -269,7 +269,7 @@ static fm_status capture_truth(run_state *run, size_t job, fm_error *err)
     snprintf(current, sizeof current, "truth of %.60s on %.60s", of->scene, of->device);
     progress_begin(&run->progress, current);
     if (access(path, R_OK) == 0) { /* an interrupted run's: written whole or not at all */
-        progress_end(&run->progress, 0.0);
+        progress_skip(&run->progress);
         return FM_OK;
     }
     const fm_request request = {
