@@ -148,6 +148,8 @@ static void measure_one(outcomes *seen, drawn_scene *drawn, const kit_way *way, 
     const uint64_t wrong = check->missing + check->extra + check->misordered + m.lost;
     const bool is_right = status == FM_OK && wrong == 0 && m.bytes_allocated == m.bytes_predicted;
     kit_tell(where, way);
+    if (is_quiet && status != FM_OK && status != FM_UNSUPPORTED)
+        fail_msg("%s: a mistake must show in fragments: %s", where, err.message);
     seen->measured++;
     seen->unsupported += status == FM_UNSUPPORTED;
     seen->generated += status == FM_OK ? drawn->scene.truth->fragment_count : 0;
