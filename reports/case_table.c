@@ -76,7 +76,7 @@ static void add_row(fm_text *page, const fm_group *group, size_t index, bool on_
 {
     const fm_case_row *result = group->cases[index];
     char title[96];
-    group_series_title(title, result);
+    group_series_title(title, result, NULL);
     text_add(page, "<tr class=\"%s\"><td data-v=\"%d\">%s</td><td class=name>",
              result->is_ok         ? "ok"
              : result->is_measured ? "wrong"

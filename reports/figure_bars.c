@@ -20,7 +20,7 @@ static void add_upright(fm_chart *chart, bar_place *place, const fm_case_row *re
     if (label == NULL)
         return;
     char title[96];
-    group_series_title(title, result);
+    group_series_title(title, result, NULL);
     *label = (fm_label){ .x_px = (place->slot + 0.5) * slot_px + 4,
                          .y_px = -7,
                          .anchor = FM_ANCHOR_END,

@@ -64,12 +64,13 @@ static void style_series(fm_series *series, const fm_method_info *look)
     series->stroke = look->is_dashed ? FM_STROKE_DASHED : FM_STROKE_SOLID;
 }
 
-static void label_ours(fm_series *series, const fm_case_row *one)
+static void label_ours(fm_series *series, const fm_figure_job *at, const fm_case_row *one)
 {
+    const fm_name_list free_columns = figure_free_columns(at->from);
     char title[96];
     if (series->point_count == 0)
         return;
-    group_series_title(title, one);
+    group_series_title(title, one, &free_columns);
     snprintf(series->label, sizeof series->label, "%.76s%s", title,
              one->is_ok ? "" : " (wrong image)");
 }
@@ -90,22 +91,35 @@ static int compare_x(const void *left, const void *right)
     return (a->x > b->x) - (a->x < b->x);
 }
 
-/* Series of one method with other options: darker, other markers, and every second one dashed. */
-static void tell_variants_apart(fm_series *series, const fm_group *group, size_t first)
+/* Cases that differ in what x is, an option perhaps, are points of one series. */
+static bool is_same_series(const fm_figure_job *at, size_t a, size_t b)
 {
+    const fm_name_list free_columns = figure_free_columns(at->from);
+    const fm_case_row *one = at->group->cases[a], *other = at->group->cases[b];
+    return strcmp(one->method, other->method) == 0 &&
+           group_same_own_options(one, other, &free_columns);
+}
+
+static bool starts_series(const fm_figure_job *at, size_t i)
+{
+    for (size_t before = 0; before < i; before++)
+        if (is_same_series(at, before, i))
+            return false;
+    return true;
+}
+
+/* Series of one method with other options: darker, other markers, and every second one dashed. */
+static void tell_variants_apart(fm_series *series, const fm_figure_job *at, size_t first)
+{
+    const fm_group *group = at->group;
     size_t variant = 0;
-    for (size_t i = 1; i <= first; i++)
-        variant += strcmp(group->cases[i - 1]->method, group->cases[first]->method) == 0 &&
-                   !group_same_series(group->cases[i - 1], group->cases[i]);
+    for (size_t i = 0; i < first; i++)
+        variant += strcmp(group->cases[i]->method, group->cases[first]->method) == 0 &&
+                   starts_series(at, i);
     series->marker = (fm_marker)(((size_t)series->marker + variant) % FM_MARKER_COUNT);
     series->colour = look_shade(series->colour, variant);
     if (variant % 2 == 1)
         series->stroke = series->stroke == FM_STROKE_SOLID ? FM_STROKE_DASHED : FM_STROKE_SOLID;
-}
-
-static bool starts_series(const fm_group *group, size_t i)
-{
-    return i == 0 || !group_same_series(group->cases[i - 1], group->cases[i]);
 }
 
 /* The points of the series that starts at case `first`, at x's own, or level at all others' x. What
@@ -118,10 +132,11 @@ static fm_series *add_series(const fm_figure_job *at, fm_figure_job *axes, size_
     if (series == NULL)
         return NULL;
     style_series(series, &one->look);
-    tell_variants_apart(series, at->group, first);
-    for (size_t i = first; i < at->group->count && group_same_series(at->group->cases[i], one);
-         i++) {
+    tell_variants_apart(series, at, first);
+    for (size_t i = first; i < at->group->count; i++) {
         const fm_case_row *result = at->group->cases[i];
+        if (!is_same_series(at, first, i))
+            continue;
         bool level = figure_is_level(at, result);
         for (size_t j = 0; result->is_measured && j < (level ? x_count : 1); j++) {
             fm_point *point = &series->points[series->point_count];
@@ -140,9 +155,9 @@ static fm_series *add_series(const fm_figure_job *at, fm_figure_job *axes, size_
 static void add_ours(fm_figure_job *at, const double *xs, size_t x_count)
 {
     for (size_t i = 0; i < at->group->count; i++) {
-        fm_series *series = starts_series(at->group, i) ? add_series(at, at, i, xs, x_count) : NULL;
+        fm_series *series = starts_series(at, i) ? add_series(at, at, i, xs, x_count) : NULL;
         if (series != NULL)
-            label_ours(series, at->group->cases[i]);
+            label_ours(series, at, at->group->cases[i]);
     }
 }
 
@@ -152,7 +167,7 @@ static void add_reference(fm_figure_job *at, const fm_figure_job *reference, con
 {
     for (size_t i = 0; reference->group != NULL && i < reference->group->count; i++) {
         fm_series *series =
-            starts_series(reference->group, i) ? add_series(reference, at, i, xs, x_count) : NULL;
+            starts_series(reference, i) ? add_series(reference, at, i, xs, x_count) : NULL;
         if (series == NULL)
             continue;
         series->has_marker = false;

@@ -56,10 +56,10 @@ bool group_same_series(const fm_case_row *a, const fm_case_row *b)
     return strcmp(a->method, b->method) == 0 && same_options(a, b, false, NULL);
 }
 
-void group_series_title(char title[96], const fm_case_row *result)
+void group_series_title(char title[96], const fm_case_row *result, const fm_name_list *without)
 {
     char options[256];
-    select_options(options, result->options, false, NULL);
+    select_options(options, result->options, false, without);
     if (options[0] == '\0')
         snprintf(title, 96, "%.95s", result->look.title);
     else

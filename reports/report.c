@@ -111,7 +111,7 @@ static fm_status add_case_pictures(fm_writer *to, size_t *embedded, const fm_gro
 {
     char title[96], caption[160];
     fm_status status = FM_OK;
-    group_series_title(title, result);
+    group_series_title(title, result, NULL);
     text_add(&to->page, "<h3>");
     html_add(&to->page, title);
     if (group_uses_k(group, result))

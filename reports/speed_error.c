@@ -93,7 +93,7 @@ static void add_method(fm_chart *chart, const fm_group *group, size_t first, boo
     if (series == NULL)
         return;
     char title[96];
-    group_series_title(title, one);
+    group_series_title(title, one, NULL);
     for (size_t i = first; i < group->count && group_same_series(group->cases[i], one); i++) {
         const fm_case_row *result = group->cases[i];
         if (has_point(result) && result->is_ok == is_ok)

@@ -271,7 +271,7 @@ static void groups_keep_different_scene_options_apart(void **state)
     assert_int_equal(groups_make(&groups, results, &(fm_groups_desc){ 0 }, NULL), FM_OK);
     assert_int_equal(groups.count, 2);
     assert_int_equal(groups.groups[0].count, 2);
-    group_series_title(title, groups.groups[0].cases[1]);
+    group_series_title(title, groups.groups[0].cases[1], NULL);
     assert_string_equal(title, "KB (lock=spin)");
     assert_string_not_equal(groups.groups[0].name, groups.groups[1].name);
     groups_free(&groups);

@@ -341,7 +341,7 @@ void claim_point_name(char name[160], const fm_claim_rows *rows, const bool *use
                  table_cell(rows->memory, point->row, table_column(rows->memory, "workload")));
         return;
     }
-    group_series_title(title, point->result);
+    group_series_title(title, point->result, NULL);
     const size_t used = (size_t)snprintf(name, 160, "%.80s", title);
     workload_name(name + used, 160 - used, rows->results, used_cases, point->result);
 }
