@@ -229,12 +229,38 @@ static void layers_left_out_change_nothing(void **state)
             assert_int_equal(tbr_counts(gpus[0])->tiles_skipped,
                              tbr_counts(gpus[1])->tiles_skipped);
             assert_int_equal(tbr_counts(gpus[0])->layer_lookups, 0);
+            assert_memory_equal(tbr_image(gpus[0]), tbr_image(gpus[1]),
+                                (size_t)sequence.width_px * sequence.height_px * 4);
         }
         tbr_destroy(gpus[0]);
         tbr_destroy(gpus[1]);
     }
     kit_sequence_free(&sequence);
     kit_technique_close(&technique);
+}
+
+/* Charts tell methods of a family by marker and dash. */
+static void techniques_look_apart(void **state)
+{
+    (void)state;
+    static const char *const ids[] = { "tbr-base",     "tbr-re",       "tbr-evr-reorder",
+                                       "tbr-evr",      "tbr-evr-safe", "tbr-z-prepass",
+                                       "tbr-oracle-z", "tbr-te",       "tbr-oracle-tile",
+                                       "tbr-vro-lite" };
+    enum { COUNT = sizeof ids / sizeof ids[0] };
+    kit_technique held[COUNT];
+    for (size_t i = 0; i < COUNT; i++) {
+        held[i] = kit_technique_open(ids[i]);
+        const fm_method_desc *one = held[i].plugin->method;
+        for (size_t k = 0; k < i; k++) {
+            const fm_method_desc *other = held[k].plugin->method;
+            if (one->family == other->family && one->marker == other->marker &&
+                one->dashed == other->dashed)
+                fail_msg("%s looks like %s", one->id, other->id);
+        }
+    }
+    for (size_t i = 0; i < COUNT; i++)
+        kit_technique_close(&held[i]);
 }
 
 /* ---- threads and builds ---- */
@@ -435,6 +461,7 @@ int main(void)
         cmocka_unit_test(static_scenes_are_skipped_from_the_third_frame_on),
         cmocka_unit_test(parts_that_nobody_needs_do_not_run),
         cmocka_unit_test(layers_left_out_change_nothing),
+        cmocka_unit_test(techniques_look_apart),
         cmocka_unit_test(counts_and_images_do_not_depend_on_threads_or_vectors),
         cmocka_unit_test(energy_components_add_up),
         cmocka_unit_test(nothing_costs_nothing_but_time),

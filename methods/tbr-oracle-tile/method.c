@@ -21,6 +21,7 @@ const fm_method_desc fm_method = {
     .feeds = FM_FEED_FRAMES,
     .keeps = FM_KEEPS_NEAREST,
     .family = FM_FAMILY_RASTERISER,
-    .marker = FM_MARKER_DIAMOND,
+    .marker = FM_MARKER_CIRCLE,
+    .dashed = true,
     .technique = &technique,
 };

@@ -17,5 +17,6 @@ const fm_method_desc fm_method = {
     .keeps = FM_KEEPS_NEAREST,
     .family = FM_FAMILY_RASTERISER,
     .marker = FM_MARKER_DIAMOND,
+    .dashed = true,
     .technique = &technique,
 };

@@ -16,5 +16,6 @@ const fm_method_desc fm_method = {
     .keeps = FM_KEEPS_NEAREST,
     .family = FM_FAMILY_RASTERISER,
     .marker = FM_MARKER_PLUS,
+    .dashed = true,
     .technique = &technique,
 };
