@@ -253,7 +253,8 @@ static fm_status run_frames(run_state *run, fm_error *err)
         const double begin = clock_s();
         if (status == FM_OK)
             status = tbr_frame(run->gpu, frame, err);
-        run->seconds += clock_s() - begin;
+        run->seconds +=
+            i > 0 ? clock_s() - begin : 0; /* of the frames whose fragments are summed */
         if (status == FM_OK)
             take_frame(run, i);
     }
