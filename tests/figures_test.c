@@ -5,6 +5,7 @@
 #include "claims_kit.h"
 #include "figure_charts.h"
 #include "group.h"
+#include "speed_error.h"
 
 static const char figure_text[] =
     "id: f-1\npaper: f\ntitle: t\nrun:\n  - { methods: [a] }\n  - { methods: [b] }\n"
@@ -194,6 +195,22 @@ static void variants_of_a_method_are_darker(void **state)
         assert_true(look_shade(orange, i).r < look_shade(orange, i - 1).r);
 }
 
+static void simulated_cases_have_no_chart_of_speed(void **state)
+{
+    (void)state;
+    fm_error err = { 0 };
+    fm_chart chart;
+    bool on = true;
+    const fm_case_row row = { .is_ok = true, .is_measured = true, .is_simulated = true };
+    const fm_case_row *cases[] = { &row };
+    const fm_group group = { .cases = cases, .count = 1, .title = "frames" };
+    assert_int_equal(speed_error_chart(&chart, &group, &err), FM_UNSUPPORTED);
+    assert_non_null(strstr(err.message, "no case has a time"));
+    chart_free(&chart);
+    speed_error_frontier(&on, &group);
+    assert_false(on);
+}
+
 /* What fragmark-report exits with when b must take at most `most` times as long as a. */
 static int report_exit(const char *most)
 {
@@ -265,6 +282,7 @@ int main(void)
         cmocka_unit_test(grouped_bars_bear_the_papers_marks_of_their_workload),
         cmocka_unit_test(charts_may_run_along_any_column),
         cmocka_unit_test(variants_of_a_method_are_darker),
+        cmocka_unit_test(simulated_cases_have_no_chart_of_speed),
         cmocka_unit_test(required_claim_that_fails_is_exit_code_1),
         cmocka_unit_test(a_run_is_no_reference_of_itself),
         cmocka_unit_test(another_machine_draws_thin_curves),
