@@ -50,6 +50,19 @@ static json_t *method_row(const fm_plugin_entry *entry)
     return row;
 }
 
+/* One line: id, title, [traits], citation. */
+static void put_method(FILE *out, const fm_plugin_entry *entry)
+{
+    if (entry->plugin == NULL) {
+        fprintf(out, "%-18s refused: %s\n", entry->id, entry->error.message);
+        return;
+    }
+    const fm_method_desc *method = entry->plugin->method;
+    fprintf(out, "%-18s %-24s [", entry->id, method->title != NULL ? method->title : "");
+    list_markdown_traits(out, method->traits);
+    fprintf(out, "] %s\n", method->citation != NULL ? method->citation : "");
+}
+
 static int list_methods(const list_arguments *arguments)
 {
     fm_plugin_list plugins = { 0 };
@@ -67,12 +80,7 @@ static int list_methods(const list_arguments *arguments)
         json_array_append_new(rows, method_row(entry));
         if (arguments->json || arguments->markdown)
             continue;
-        if (entry->plugin != NULL)
-            fprintf(cli->out, "%-18s %-22s %s\n", entry->id,
-                    entry->plugin->method->title != NULL ? entry->plugin->method->title : "",
-                    entry->plugin->method->citation != NULL ? entry->plugin->method->citation : "");
-        else
-            fprintf(cli->out, "%-18s refused: %s\n", entry->id, entry->error.message);
+        put_method(cli->out, entry);
     }
     if (plugins.count == 0)
         fprintf(cli->talk, "no methods found; FRAGMARK_PLUGIN_PATH or --plugin-dir name their "

@@ -21,6 +21,7 @@ static const struct trait_words {
     { FM_TRAIT_SORTS_IN_RESOLVE, "sorts in resolve" },
     { FM_TRAIT_EMITS_BACK, "emits from the back" },
     { FM_TRAIT_CONTROL, "control" },
+    { 0 },
 }, image_words[] = {
     { FM_TRAIT_EXACT, "exact" },
     { FM_TRAIT_APPROXIMATE, "approximate" },
@@ -29,17 +30,25 @@ static const struct trait_words {
     { FM_TRAIT_LOSES_TIES, "loses ties" },
     { FM_TRAIT_LOSES_DEPTH_ONE, "loses depth 1" },
     { FM_TRAIT_FLOOR, "none: the floor" },
+    { 0 },
 };
 
-static void put_words(FILE *out, uint32_t traits, const struct trait_words *words, size_t count)
+/* What goes before the next word: `before` if there were none. */
+static const char *put_words(FILE *out, uint32_t traits, const struct trait_words *words,
+                             const char *before)
 {
-    const char *before = "";
-    for (size_t i = 0; i < count; i++) {
-        if ((traits & words[i].trait) == 0)
+    for (; words->trait != 0; words++) {
+        if ((traits & words->trait) == 0)
             continue;
-        fprintf(out, "%s%s", before, words[i].words);
+        fprintf(out, "%s%s", before, words->words);
         before = ", ";
     }
+    return before;
+}
+
+void list_markdown_traits(FILE *out, uint32_t traits)
+{
+    put_words(out, traits, trait_words, put_words(out, traits, image_words, ""));
 }
 
 /* A citation with each "doi:..." as a link. */
@@ -79,9 +88,9 @@ static void put_row(FILE *out, const char *id, const fm_method_desc *method)
             method->title != NULL ? method->title : id);
     put_citation(out, method->citation != NULL ? method->citation : "");
     fprintf(out, " | %s | ", (traits & FM_TRAIT_FLOOR) != 0 ? "-" : keeps_words[method->keeps]);
-    put_words(out, traits, image_words, sizeof image_words / sizeof image_words[0]);
+    put_words(out, traits, image_words, "");
     fputs(" | ", out);
-    put_words(out, traits, trait_words, sizeof trait_words / sizeof trait_words[0]);
+    put_words(out, traits, trait_words, "");
     fputs(" | ", out);
     put_feeds(out, method);
     fputs(" |\n", out);
