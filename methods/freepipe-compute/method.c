@@ -1,13 +1,11 @@
 #include "fragmark/method.h"
 
-/* FreePipe: Liu, Huang, Liu, Wu: FreePipe: a programmable parallel rendering architecture for
- * efficient multi-fragment effects. I3D 2010. doi:10.1145/1730804.1730817 */
 const fm_method_desc fm_method = {
     .abi = FM_ABI,
     .size_bytes = sizeof(fm_method_desc),
     .id = "freepipe-compute",
     .title = "FreePipe",
-    .citation = "doi:10.1145/1730804.1730817",
+    .citation = "Liu, Huang, Liu, Wu 2010, FreePipe, doi:10.1145/1730804.1730817",
     .version = "1",
     .traits = FM_TRAIT_EXACT | FM_TRAIT_SORTS_IN_RESOLVE,
     .feeds = FM_FEED_TRIANGLES,
