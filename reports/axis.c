@@ -7,7 +7,9 @@
 
 enum { TICK_VALUES_MAX = 12, BIN_CLEAR_PX = 20 };
 
-static const double least_log_span = 0.5; /* decades: less would magnify noise to a trend */
+/* Less would magnify noise to a trend. */
+static const double least_log_span = 0.5; /* decades */
+static const double least_linear_share = 0.1;
 
 void axis_label(char label[24], double value)
 {
@@ -91,6 +93,21 @@ static void axis_fit_log(fm_axis *axis, const double *values, size_t count)
     axis_log_ticks(axis);
 }
 
+/* Between ticks, so that there are about six. */
+static double linear_step(double span)
+{
+    const double raw = span / 6.0, decade = pow(10.0, floor(log10(raw)));
+    return decade * (raw <= decade ? 1 : raw <= 2 * decade ? 2 : raw <= 5 * decade ? 5 : 10);
+}
+
+static void add_linear_ticks(fm_axis *axis, double step)
+{
+    const long first = lround(ceil(axis->low / step - 1e-9));
+    const long last = lround(floor(axis->high / step + 1e-9));
+    for (long i = first; i <= last; i++)
+        axis_add_tick(axis, (double)i * step, NULL);
+}
+
 static void axis_fit_linear(fm_axis *axis, const double *values, size_t count)
 {
     double low = 0.0, high = 0.0;
@@ -101,13 +118,30 @@ static void axis_fit_linear(fm_axis *axis, const double *values, size_t count)
         }
     if (high == low)
         high = low + 1.0;
-    double raw = (high - low) / 6.0, decade = pow(10.0, floor(log10(raw)));
-    double step = decade * (raw <= decade ? 1 : raw <= 2 * decade ? 2 : raw <= 5 * decade ? 5 : 10);
+    const double step = linear_step(high - low);
     axis->low = low < 0.0 ? step * floor(low / step) : 0.0;
     axis->high = high + 0.05 * (high - low);
-    long first = lround(axis->low / step), last = lround(floor(axis->high / step));
-    for (long i = first; i <= last; i++)
-        axis_add_tick(axis, (double)i * step, NULL);
+    add_linear_ticks(axis, step);
+}
+
+void axis_fit_near(fm_axis *axis, const double *values, size_t count)
+{
+    double low = INFINITY, high = -INFINITY;
+    for (size_t i = 0; i < count; i++)
+        if (isfinite(values[i])) {
+            low = fmin(low, values[i]);
+            high = fmax(high, values[i]);
+        }
+    if (high < low)
+        low = high = 0.0;
+    const double greatest = fmax(fabs(low), fabs(high));
+    const double least_span = greatest > 0.0 ? least_linear_share * greatest : 1.0;
+    const double pad = fmax(0.1 * (high - low), (least_span - (high - low)) / 2);
+    axis->scale = FM_SCALE_LINEAR;
+    axis->tick_count = 0;
+    axis->low = low - pad;
+    axis->high = high + pad;
+    add_linear_ticks(axis, linear_step(axis->high - axis->low));
 }
 
 void axis_fit(fm_axis *axis, const double *values, size_t count)

@@ -38,6 +38,10 @@ typedef struct fm_axis {
  * A linear axis starts at 0 when no value is negative. No values: [0, 1], or [0.1, 10]. */
 void axis_fit(fm_axis *axis, const double *values, size_t count);
 
+/* Linear, as close around the values as ticks allow, at least a tenth of the greatest wide: for
+ * what is compared with a value that is not 0. */
+void axis_fit_near(fm_axis *axis, const double *values, size_t count);
+
 /* Replaces the ticks by the distinct values themselves ("4", "8", "16"), when there are at most 12.
  */
 void axis_tick_values(fm_axis *axis, const double *values, size_t count);

@@ -387,10 +387,11 @@ vtkSmartPointer<vtkXMLDataElement> child(vtkXMLDataElement *parent, const char *
 std::string draw(const fm_chart *chart)
 {
     const float bottom = chart->bottom_px > 0 ? static_cast<float>(chart->bottom_px) : BOTTOM_PX;
+    const float left = chart->left_px > 0 ? static_cast<float>(chart->left_px) : LEFT_PX;
     const float heading = 2 * EDGE_PX + std::max(text_width(chart->title, TITLE_PX),
                                                  text_width(chart->subtitle, TEXT_PX));
     const int width = static_cast<int>(std::max(
-        heading, LEFT_PX + static_cast<float>(chart->x.length_px) + legend_width(chart) + EDGE_PX));
+        heading, left + static_cast<float>(chart->x.length_px) + legend_width(chart) + EDGE_PX));
     const int height = static_cast<int>(bottom + static_cast<float>(chart->y.length_px) + TOP_PX);
 
     vtkNew<vtkGenericOpenGLRenderWindow> window; // gives the size; never rendered
@@ -404,9 +405,9 @@ std::string draw(const fm_chart *chart)
     vtkNew<vtkChartXY> view;
     vtkNew<InkPlot> plot;
     vtkNew<FrameItem> frame;
-    build_chart(view, plot, chart, LEFT_PX, bottom);
+    build_chart(view, plot, chart, left, bottom);
     frame->chart = chart;
-    frame->left_px = LEFT_PX;
+    frame->left_px = left;
     frame->bottom_px = bottom;
     scene->AddItem(view);
     scene->AddItem(frame);

@@ -63,6 +63,7 @@ typedef struct fm_chart {
     char subtitle[200];
     fm_axis x, y;      /* with length_px set: the size of the plot */
     int bottom_px;     /* room below the plot; 0: 62 */
+    int left_px;       /* room left of it; 0: 74 */
     fm_series *series; /* owned */
     size_t series_count, series_capacity;
     fm_bar *bars; /* owned */

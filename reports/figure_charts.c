@@ -135,6 +135,8 @@ fm_status figure_chart_make(fm_chart *chart, const fm_paper_figure *figure,
                  group->workload[0] != '\0' ? "; " : "", group->workload);
     if (from->kind == FM_FIGURE_LINES)
         status = figure_make_lines(&at, &other, xs, err);
+    else if (from->kind == FM_FIGURE_TORNADO)
+        status = figure_make_tornado(&at, err);
     else
         status = figure_make_bars(&at, xs, err);
 out:

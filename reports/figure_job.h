@@ -30,11 +30,20 @@ double figure_paper_value(const fm_figure_job *at, const char *method, double x)
 /* The paper's points are of what the chart shows. */
 bool figure_has_paper(const fm_figure_job *at);
 void figure_title_quantity(char title[128], const fm_name_list *metrics);
+/* "y / that of ratio_to's method" */
+void figure_title_ratio(char title[128], const fm_figure_job *at);
+/* Cases that differ in what x is, an option perhaps, are points of one series, which the first of
+ * them starts. Numbers are of the group's cases. */
+bool figure_is_same_series(const fm_figure_job *at, size_t a, size_t b);
+bool figure_starts_series(const fm_figure_job *at, size_t i);
+/* The case that ratios at x are taken to; NULL: it was not measured there. */
+const fm_case_row *figure_base_at(const fm_figure_job *at, double x);
 
 /* FM_UNSUPPORTED: nothing to draw. xs: room for one of each case. reference: the same of another
  * machine, drawn thin; its group is NULL where there is none. */
 fm_status figure_make_lines(fm_figure_job *at, const fm_figure_job *reference, double *xs,
                             fm_error *err);
 fm_status figure_make_bars(fm_figure_job *at, double *xs, fm_error *err);
+fm_status figure_make_tornado(fm_figure_job *at, fm_error *err);
 
 #endif

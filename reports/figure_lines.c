@@ -16,8 +16,7 @@ fm_interval figure_y(const fm_figure_job *at, const fm_case_row *result)
                                  at->from->ys.count);
 }
 
-/* The case that ratios at x are taken to; NULL: it was not measured there. */
-static const fm_case_row *base_at(const fm_figure_job *at, double x)
+const fm_case_row *figure_base_at(const fm_figure_job *at, double x)
 {
     for (size_t i = 0; i < at->group->count; i++) {
         const fm_case_row *other = at->group->cases[i];
@@ -33,7 +32,7 @@ static bool value_at(fm_point *point, const fm_figure_job *at, const fm_case_row
 {
     fm_interval y = figure_y(at, result);
     if (at->from->ratio_to != NULL) {
-        const fm_case_row *base = base_at(at, x);
+        const fm_case_row *base = figure_base_at(at, x);
         if (base == NULL)
             return false;
         y = interval_ratio(y, figure_y(at, base));
@@ -91,8 +90,7 @@ static int compare_x(const void *left, const void *right)
     return (a->x > b->x) - (a->x < b->x);
 }
 
-/* Cases that differ in what x is, an option perhaps, are points of one series. */
-static bool is_same_series(const fm_figure_job *at, size_t a, size_t b)
+bool figure_is_same_series(const fm_figure_job *at, size_t a, size_t b)
 {
     const fm_name_list free_columns = figure_free_columns(at->from);
     const fm_case_row *one = at->group->cases[a], *other = at->group->cases[b];
@@ -100,10 +98,10 @@ static bool is_same_series(const fm_figure_job *at, size_t a, size_t b)
            group_same_own_options(one, other, &free_columns);
 }
 
-static bool starts_series(const fm_figure_job *at, size_t i)
+bool figure_starts_series(const fm_figure_job *at, size_t i)
 {
     for (size_t before = 0; before < i; before++)
-        if (is_same_series(at, before, i))
+        if (figure_is_same_series(at, before, i))
             return false;
     return true;
 }
@@ -115,7 +113,7 @@ static void tell_variants_apart(fm_series *series, const fm_figure_job *at, size
     size_t variant = 0;
     for (size_t i = 0; i < first; i++)
         variant += strcmp(group->cases[i]->method, group->cases[first]->method) == 0 &&
-                   starts_series(at, i);
+                   figure_starts_series(at, i);
     series->marker = (fm_marker)(((size_t)series->marker + variant) % FM_MARKER_COUNT);
     series->colour = look_shade(series->colour, variant);
     if (variant % 2 == 1)
@@ -135,7 +133,7 @@ static fm_series *add_series(const fm_figure_job *at, fm_figure_job *axes, size_
     tell_variants_apart(series, at, first);
     for (size_t i = first; i < at->group->count; i++) {
         const fm_case_row *result = at->group->cases[i];
-        if (!is_same_series(at, first, i))
+        if (!figure_is_same_series(at, first, i))
             continue;
         bool level = figure_is_level(at, result);
         for (size_t j = 0; result->is_measured && j < (level ? x_count : 1); j++) {
@@ -155,7 +153,7 @@ static fm_series *add_series(const fm_figure_job *at, fm_figure_job *axes, size_
 static void add_ours(fm_figure_job *at, const double *xs, size_t x_count)
 {
     for (size_t i = 0; i < at->group->count; i++) {
-        fm_series *series = starts_series(at, i) ? add_series(at, at, i, xs, x_count) : NULL;
+        fm_series *series = figure_starts_series(at, i) ? add_series(at, at, i, xs, x_count) : NULL;
         if (series != NULL)
             label_ours(series, at, at->group->cases[i]);
     }
@@ -167,7 +165,7 @@ static void add_reference(fm_figure_job *at, const fm_figure_job *reference, con
 {
     for (size_t i = 0; reference->group != NULL && i < reference->group->count; i++) {
         fm_series *series =
-            starts_series(reference, i) ? add_series(reference, at, i, xs, x_count) : NULL;
+            figure_starts_series(reference, i) ? add_series(reference, at, i, xs, x_count) : NULL;
         if (series == NULL)
             continue;
         series->has_marker = false;
@@ -332,19 +330,22 @@ void figure_title_quantity(char title[128], const fm_name_list *metrics)
     quantity_title(title, metrics->names[0], unit_of(metrics->names[0]));
 }
 
+void figure_title_ratio(char title[128], const fm_figure_job *at)
+{
+    char own[128];
+    const fm_method_info look = paper_look(at, at->from->ratio_to);
+    quantity_title(own, at->from->y, "");
+    snprintf(title, 128, "%.*s / that of %.50s", (int)strcspn(own, "["), own,
+             look.title != NULL ? look.title : at->from->ratio_to);
+}
+
 static void title_axes(fm_figure_job *at)
 {
-    fm_axis *x = &at->chart->x, *y = &at->chart->y;
-    char title[128];
-    quantity_title(x->title, at->from->x, "");
-    if (at->from->ratio_to == NULL) {
-        figure_title_quantity(y->title, &at->from->ys);
-        return;
-    }
-    const fm_method_info look = paper_look(at, at->from->ratio_to);
-    quantity_title(title, at->from->y, "");
-    snprintf(y->title, sizeof y->title, "%.*s / that of %.50s", (int)strcspn(title, "["), title,
-             look.title != NULL ? look.title : at->from->ratio_to);
+    quantity_title(at->chart->x.title, at->from->x, "");
+    if (at->from->ratio_to == NULL)
+        figure_title_quantity(at->chart->y.title, &at->from->ys);
+    else
+        figure_title_ratio(at->chart->y.title, at);
 }
 
 fm_status figure_make_lines(fm_figure_job *at, const fm_figure_job *reference, double *xs,

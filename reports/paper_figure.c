@@ -9,15 +9,58 @@ static const char *const figure_keys[] = { "id",           "paper",      "title"
                                            "run",          "smoke",      "large", "charts",
                                            "paper_points", "deviations", "table", "claims",
                                            "pictures" };
-static const char *const chart_keys[] = { "id",    "kind",     "title",      "x",       "y",
-                                          "parts", "ratio_to", "with_paper", "y_scale", "across" };
+static const char *const chart_keys[] = { "id",      "kind",   "title",    "x",
+                                          "y",       "parts",  "ratio_to", "with_paper",
+                                          "y_scale", "across", "sweep" };
+static const char *const swept_keys[] = { "name", "low", "high" };
 static const char *const points_keys[] = { "metric", "parts", "series" };
 static const char *const series_keys[] = { "method", "title", "at", "points" };
 #define KEYS(list) (list), sizeof(list) / sizeof((list)[0])
 
+static fm_status read_sweep(fm_figure_chart *chart, const fm_yaml *list, const fm_yaml_place *at)
+{
+    fm_status status = FM_OK;
+    if (list == NULL)
+        return FM_OK;
+    if (list->kind != FM_YAML_LIST || list->count > FM_FIGURE_SWEPT)
+        return fm_fail(at->err, FM_INVALID, "%s:%u: sweep: a list of up to %d is expected",
+                       at->path, list->line, FM_FIGURE_SWEPT);
+    for (size_t i = 0; i < list->count && status == FM_OK; i++) {
+        fm_figure_swept *swept = &chart->sweep[chart->swept_count++];
+        status = field_check_keys(&list->items[i], "sweep", KEYS(swept_keys), at);
+        if (status == FM_OK)
+            status = field_text(&swept->name, &list->items[i], "name", true, at);
+        if (status == FM_OK)
+            status = field_text(&swept->low, &list->items[i], "low", true, at);
+        if (status == FM_OK)
+            status = field_text(&swept->high, &list->items[i], "high", true, at);
+    }
+    return status;
+}
+
+/* What each kind needs. */
+static fm_status check_chart(const fm_figure_chart *chart, const fm_yaml *map,
+                             const fm_yaml_place *at)
+{
+    const bool is_tornado = chart->kind == FM_FIGURE_TORNADO;
+    if (chart->kind != FM_FIGURE_STACKED_BARS && chart->ys.count == 0)
+        return fm_fail(at->err, FM_INVALID, "%s:%u: y is missing", at->path, map->line);
+    if (chart->kind == FM_FIGURE_STACKED_BARS &&
+        (chart->parts.count == 0 || chart->parts.count > FM_FIGURE_PARTS))
+        return fm_fail(at->err, FM_INVALID, "%s:%u: stacked-bars need 1 to %d parts", at->path,
+                       map->line, FM_FIGURE_PARTS);
+    if (is_tornado && (chart->swept_count == 0 || chart->ratio_to == NULL))
+        return fm_fail(at->err, FM_INVALID, "%s:%u: a tornado needs sweep and ratio_to", at->path,
+                       map->line);
+    if (!is_tornado && chart->swept_count > 0)
+        return fm_fail(at->err, FM_INVALID, "%s:%u: sweep is for kind tornado", at->path,
+                       map->line);
+    return FM_OK;
+}
+
 static fm_status read_chart(fm_figure_chart *chart, const fm_yaml *map, const fm_yaml_place *at)
 {
-    static const char *const kinds[] = { "lines", "stacked-bars", "grouped-bars" };
+    static const char *const kinds[] = { "lines", "stacked-bars", "grouped-bars", "tornado" };
     static const char *const scales[] = { "linear", "log" };
     int kind = 0, scale = 0;
     fm_status status = field_check_keys(map, "charts", KEYS(chart_keys), at);
@@ -28,11 +71,9 @@ static fm_status read_chart(fm_figure_chart *chart, const fm_yaml *map, const fm
     if (status == FM_OK)
         status = field_text(&chart->x, map, "x", true, at);
     if (status == FM_OK)
-        status = field_word(&kind, map, "kind", kinds, 3, at);
+        status = field_word(&kind, map, "kind", kinds, 4, at);
     if (status == FM_OK)
         status = field_list(&chart->ys, map, "y", at);
-    if (status == FM_OK && kind != FM_FIGURE_STACKED_BARS && chart->ys.count == 0)
-        return fm_fail(at->err, FM_INVALID, "%s:%u: y is missing", at->path, map->line);
     chart->y = chart->ys.count > 0 ? chart->ys.names[0] : "";
     if (status == FM_OK)
         status = field_text(&chart->ratio_to, map, "ratio_to", false, at);
@@ -44,15 +85,13 @@ static fm_status read_chart(fm_figure_chart *chart, const fm_yaml *map, const fm
         status = field_list(&chart->parts, map, "parts", at);
     if (status == FM_OK)
         status = field_list(&chart->across, map, "across", at);
-    if (status == FM_OK && kind == FM_FIGURE_STACKED_BARS &&
-        (chart->parts.count == 0 || chart->parts.count > FM_FIGURE_PARTS))
-        return fm_fail(at->err, FM_INVALID, "%s:%u: stacked-bars need 1 to %d parts", at->path,
-                       map->line, FM_FIGURE_PARTS);
+    if (status == FM_OK)
+        status = read_sweep(chart, yaml_tree_find(map, "sweep"), at);
     if (status == FM_OK && chart->ratio_to[0] == '\0')
         chart->ratio_to = NULL;
     chart->kind = (fm_figure_kind)kind;
     chart->is_log = scale == 1;
-    return status;
+    return status == FM_OK ? check_chart(chart, map, at) : status;
 }
 
 static fm_status read_charts(fm_paper_figure *figure, const fm_yaml *list, const fm_yaml_place *at)

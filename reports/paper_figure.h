@@ -15,13 +15,17 @@
  *   pictures: true             pictures and heat maps of its cases are kept
  *   charts:                    in the report's order
  *     - id: time               part of the file name charts/ID-time-*.svg
- *       kind: lines            or stacked-bars, or grouped-bars
+ *       kind: lines            or stacked-bars, grouped-bars, tornado
  *       title: ...
  *       x: k                   a number column of summary.csv, an option, or scene: a place
- *                              for each scene that the run lists
- *       y: frame_ms            lines, grouped-bars: any metric, or a list of which the sum is drawn
- *       parts: [clear_ms, ...] stacked-bars: metrics, from the bottom up
- *       ratio_to: kplus-array  lines: y over that method's at the same x
+ *                              for each scene that the run lists; tornado: what the mean is over
+ *       y: frame_ms            lines, grouped-bars: any metric, or a list of which the sum is
+ * drawn; tornado: the metric with all parameters at their defaults parts: [clear_ms, ...]
+ * stacked-bars: metrics, from the bottom up sweep:                 tornado: for each parameter y
+ * with it alone at its lowest, and at its highest value: a horizontal bar from one ratio to the
+ * other, the longest on top; the line across is the defaults' ratio
+ *         - { name: dram_latency_cycles, low: METRIC, high: METRIC }
+ *       ratio_to: kplus-array  lines: y over that method's at the same x; tornado: the mean of that
  *       with_paper: true       lines, grouped-bars: the paper's points, hollow
  *       across: [height_px]    columns that change with x
  *       y_scale: log           or linear, the default
@@ -47,13 +51,24 @@
 
 #include "claims/claim.h"
 
-enum { FM_FIGURE_CHARTS = 8, FM_FIGURE_PARTS = 8, FM_FIGURE_POINTS = 256 };
+enum {
+    FM_FIGURE_CHARTS = 8,
+    FM_FIGURE_PARTS = 8,
+    FM_FIGURE_SWEPT = 16,
+    FM_FIGURE_POINTS = 256,
+};
 
 typedef enum fm_figure_kind {
     FM_FIGURE_LINES,
     FM_FIGURE_STACKED_BARS,
     FM_FIGURE_GROUPED_BARS,
+    FM_FIGURE_TORNADO,
 } fm_figure_kind;
+
+/* A parameter of a model, and the metrics at the ends of its range. */
+typedef struct fm_figure_swept {
+    const char *name, *low, *high;
+} fm_figure_swept;
 
 typedef struct fm_figure_chart {
     const char *id, *title, *x;
@@ -63,6 +78,8 @@ typedef struct fm_figure_chart {
     fm_name_list across;
     fm_figure_kind kind;
     fm_name_list parts;
+    fm_figure_swept sweep[FM_FIGURE_SWEPT];
+    size_t swept_count;
     bool with_paper, is_log;
 } fm_figure_chart;
 

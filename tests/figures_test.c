@@ -28,12 +28,13 @@ typedef struct fixture {
     fm_paper_figure *figure;
 } fixture;
 
-static void open_fixture(fixture *made, const char *figures_csv)
+static void open_fixture_of(fixture *made, const fakes *rows, const char *text,
+                            const char *figures_csv)
 {
     char path[256];
     fm_error err = { 0 };
-    kit_make_results(made->directory, &usual);
-    kit_write_file(made->directory, "f-1.yml", figure_text);
+    kit_make_results(made->directory, rows);
+    kit_write_file(made->directory, "f-1.yml", text);
     if (figures_csv != NULL)
         kit_write_file(made->directory, "figures.csv", figures_csv);
     snprintf(path, sizeof path, "%s/f-1.yml", made->directory);
@@ -47,6 +48,11 @@ static void close_fixture(fixture *made)
     paper_figure_close(made->figure);
     result_files_close(made->results);
     kit_remove_directory(made->directory);
+}
+
+static void open_fixture(fixture *made, const char *figures_csv)
+{
+    open_fixture_of(made, &usual, figure_text, figures_csv);
 }
 
 static size_t count_taken(const fixture *in)
@@ -158,6 +164,102 @@ static void charts_may_run_along_any_column(void **state)
     chart_free(&chart);
     groups_free(&groups);
     close_fixture(&with);
+}
+
+static const char tornado_text[] =
+    "id: f-1\npaper: f\ntitle: t\ncharts:\n"
+    "  - id: c\n    kind: tornado\n    title: c\n    x: pixel_density\n    y: frame_ms\n"
+    "    ratio_to: a\n    sweep:\n"
+    "      - { name: narrow, low: resolve_ms, high: store_ms }\n"
+    "      - { name: wide, low: bytes_allocated, high: frame_ms }\n"
+    "      - { name: unknown, low: no_such_metric, high: frame_ms }\n";
+
+/* b over a, mean of the two: frame 3, resolve 3, store 113/36, bytes 1/2. */
+#define PAIR(of, density, time_ms, own_ms, size)                                                   \
+    .method = (of), .k = 4, .pixel_density = (density), .frame_ms = (time_ms),                     \
+    .resolve_ms = (own_ms), .bytes = (size)
+static const fakes pairs = { { { PAIR("a", 0.25, 10, 1, 100) },
+                               { PAIR("b", 0.25, 20, 4, 25) },
+                               { PAIR("a", 0.75, 10, 2, 100) },
+                               { PAIR("b", 0.75, 40, 4, 75) } } };
+
+static bool nearly(double value, double expected)
+{
+    return fabs(value - expected) < 1e-6;
+}
+
+static void assert_spans(const fm_bar *bar, double from, double to)
+{
+    if (!nearly(bar->x0, from) || !nearly(bar->x1, to))
+        fail_msg("a bar from %g to %g, not %g to %g", bar->x0, bar->x1, from, to);
+}
+
+static size_t place_of_label(const fm_chart *chart, const char *text)
+{
+    for (size_t i = 0; i < chart->label_count; i++)
+        if (strcmp(chart->labels[i].text, text) == 0)
+            return i;
+    fail_msg("no label %s", text);
+    return 0;
+}
+
+static void tornado_has_the_longest_bar_on_top(void **state)
+{
+    (void)state;
+    fixture with;
+    fm_groups groups;
+    fm_chart chart;
+    fm_error err = { 0 };
+    open_fixture_of(&with, &pairs, tornado_text, NULL);
+    make_groups(&groups, &with, &with.figure->charts[0]);
+    assert_int_equal(groups.count, 1);
+    const fm_figure_source own = { with.results, &groups.groups[0] }, none = { NULL, NULL };
+    assert_int_equal(
+        figure_chart_make(&chart, with.figure, &with.figure->charts[0], &own, &none, &err), FM_OK);
+    assert_int_equal(chart.bar_count, 4); /* two a parameter, from the defaults' ratio */
+    assert_spans(&chart.bars[0], 0.5, 3.0);
+    assert_spans(&chart.bars[1], 3.0, 3.0);
+    assert_spans(&chart.bars[2], 3.0, 113.0 / 36);
+    assert_true(chart.bars[0].y0 > chart.bars[2].y1);
+    assert_true(place_of_label(&chart, "wide") < place_of_label(&chart, "narrow"));
+    assert_true(nearly(chart.series[0].points[0].x, 3.0) &&
+                nearly(chart.series[0].points[1].x, 3.0));
+    assert_true(chart.x.low < 0.5 && chart.x.low > 0.0 && chart.x.high > 113.0 / 36);
+    assert_string_equal(chart.notes[0], "parameters without values: 1");
+    chart_free(&chart);
+    groups_free(&groups);
+    close_fixture(&with);
+}
+
+static fm_status read_tornado(const char *keys, fm_error *err)
+{
+    char directory[64], path[256], text[512];
+    fm_paper_figure *figure = NULL;
+    kit_make_results(directory, &pairs);
+    snprintf(text, sizeof text,
+             "id: f-1\npaper: f\ntitle: t\ncharts:\n"
+             "  - { id: c, title: c, x: k, y: frame_ms, %s }\n",
+             keys);
+    kit_write_file(directory, "f-1.yml", text);
+    snprintf(path, sizeof path, "%s/f-1.yml", directory);
+    const fm_status status = paper_figure_read(&figure, path, err);
+    paper_figure_close(figure);
+    kit_remove_directory(directory);
+    return status;
+}
+
+static void tornado_needs_a_sweep_and_nothing_else_does(void **state)
+{
+    (void)state;
+    fm_error err = { 0 };
+    assert_int_equal(read_tornado("kind: tornado, ratio_to: a", &err), FM_INVALID);
+    assert_non_null(strstr(err.message, "f-1.yml:5: a tornado needs sweep and ratio_to"));
+    assert_int_equal(read_tornado("sweep: [{ name: p, low: a, high: b }]", &err), FM_INVALID);
+    assert_non_null(strstr(err.message, "sweep is for kind tornado"));
+    assert_int_equal(
+        read_tornado("kind: tornado, ratio_to: a, sweep: [{ name: p, low: a, hihg: b }]", &err),
+        FM_INVALID);
+    assert_non_null(strstr(err.message, "high"));
 }
 
 static void another_machine_draws_thin_curves(void **state)
@@ -286,6 +388,8 @@ int main(void)
         cmocka_unit_test(required_claim_that_fails_is_exit_code_1),
         cmocka_unit_test(a_run_is_no_reference_of_itself),
         cmocka_unit_test(another_machine_draws_thin_curves),
+        cmocka_unit_test(tornado_has_the_longest_bar_on_top),
+        cmocka_unit_test(tornado_needs_a_sweep_and_nothing_else_does),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
