@@ -51,20 +51,34 @@ static double draw_unit(const generator *g, stream of, uint32_t index, uint32_t 
     return draw_number(g, of, index, which) * 0x1p-32;
 }
 
-static fm_draw_call plain_draw(const generator *g, uint32_t texture)
+fm_status frames_check_size(const fm_settings *settings, fm_error *err)
+{
+    if (settings->width_px <= FRAMES_SIDE_MAX && settings->height_px <= FRAMES_SIDE_MAX)
+        return FM_OK;
+    return fm_fail(err, FM_INVALID, "%u x %u px: sequences of frames end at %d", settings->width_px,
+                   settings->height_px, FRAMES_SIDE_MAX);
+}
+
+fm_draw_call frames_plain_draw(const fm_settings *settings)
 {
     return (fm_draw_call){
         .mask = 15,
         .alpha = 255,
-        .texture = texture,
         .vertices = 4,
-        .vertex_instructions = (uint16_t)g->settings.vertex_instructions,
-        .fragment_instructions = (uint16_t)g->settings.fragment_instructions,
+        .vertex_instructions = (uint16_t)settings->vertex_instructions,
+        .fragment_instructions = (uint16_t)settings->fragment_instructions,
         .attribute_bytes = ATTRIBUTE_BYTES,
         .scalars = SCALARS,
-        .texture_bytes16 = (uint16_t)lround(g->settings.texture_bytes * 16),
+        .texture_bytes16 = (uint16_t)lround(settings->texture_bytes * 16),
         .vertex_bytes = VERTEX_BYTES,
     };
+}
+
+static fm_draw_call plain_draw(const generator *g, uint32_t texture)
+{
+    fm_draw_call draw = frames_plain_draw(&g->settings);
+    draw.texture = texture;
+    return draw;
 }
 
 /* Sixteenths of a pixel; uv: where its picture starts. */
@@ -357,9 +371,9 @@ static fm_status make_objects(generator *g, fm_error *err)
 fm_status frames_generate(fm_sequence **sequence, const fm_settings *settings, fm_error *err)
 {
     *sequence = NULL;
-    if (settings->width_px > FRAMES_SIDE_MAX || settings->height_px > FRAMES_SIDE_MAX)
-        return fm_fail(err, FM_INVALID, "%u x %u px: generator frames ends at %d",
-                       settings->width_px, settings->height_px, FRAMES_SIDE_MAX);
+    const fm_status size = frames_check_size(settings, err);
+    if (size != FM_OK)
+        return size;
     generator *g = calloc(1, sizeof *g);
     if (g == NULL)
         return fm_fail(err, FM_NO_MEMORY, "no memory for a sequence");

@@ -16,4 +16,9 @@
 /* FM_INVALID: a viewport over FRAMES_SIDE_MAX; FM_NO_MEMORY. */
 fm_status frames_generate(fm_sequence **sequence, const fm_settings *settings, fm_error *err);
 
+/* What generators of such sequences share: whether the viewport is one they can fill, and a draw
+ * call of one opaque quad without depth at the costs that the settings say. */
+fm_status frames_check_size(const fm_settings *settings, fm_error *err);
+fm_draw_call frames_plain_draw(const fm_settings *settings);
+
 #endif

@@ -116,6 +116,20 @@ void frame_builder_triangle(fm_frame_builder *builder, const fm_triangle *triang
     builder->frame.draws[builder->frame.draw_count - 1].count++;
 }
 
+static fm_corner corner(int32_t x, int32_t y, uint32_t z)
+{
+    return (fm_corner){ x * FRAMES_SUBPIXELS, y * FRAMES_SUBPIXELS, z, (uint32_t)x << 16,
+                        (uint32_t)y << 16 };
+}
+
+void frame_builder_quad(fm_frame_builder *builder, const int32_t px[4], uint32_t z)
+{
+    const fm_corner a = corner(px[0], px[1], z), b = corner(px[2], px[1], z);
+    const fm_corner c = corner(px[2], px[3], z), d = corner(px[0], px[3], z);
+    frame_builder_triangle(builder, &(fm_triangle){ { a, b, c } });
+    frame_builder_triangle(builder, &(fm_triangle){ { a, c, d } });
+}
+
 void frame_builder_free(fm_frame_builder *builder)
 {
     free(builder->frame.draws);

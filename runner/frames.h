@@ -133,6 +133,8 @@ void frame_builder_clear(fm_frame_builder *builder);
 /* Triangles that follow are this draw call's; its first and count are set here. */
 void frame_builder_draw(fm_frame_builder *builder, const fm_draw_call *draw);
 void frame_builder_triangle(fm_frame_builder *builder, const fm_triangle *triangle);
+/* Two triangles over [x0, x1) x [y0, y1) px at depth z, coloured by where they are. */
+void frame_builder_quad(fm_frame_builder *builder, const int32_t px[4], uint32_t z);
 void frame_builder_free(fm_frame_builder *builder);
 
 #endif

@@ -22,13 +22,11 @@ _Static_assert(
 #define LAYERS    BY(1u << FM_GENERATOR_LAYERS)
 #define MESH_FILE BY(1u << FM_GENERATOR_MESH | 1u << FM_GENERATOR_BUNNY_IN_CUBE)
 /* bunny-in-cube's camera and place follow from its pixel density. */
-#define DENSITY BY(1u << FM_GENERATOR_LAYERS | 1u << FM_GENERATOR_BUNNY_IN_CUBE)
-#define MESH                                                                                       \
-    BY(~(1u << FM_GENERATOR_LAYERS | 1u << FM_GENERATOR_BUNNY_IN_CUBE |                            \
-         1u << FM_GENERATOR_FRAMES | 1u << FM_GENERATOR_STREAM))
+#define DENSITY    BY(1u << FM_GENERATOR_LAYERS | 1u << FM_GENERATOR_BUNNY_IN_CUBE)
+#define MESH       BY(~(1u << FM_GENERATOR_LAYERS | 1u << FM_GENERATOR_BUNNY_IN_CUBE | FM_MAKES_FRAMES))
 #define FRAMES     BY(1u << FM_GENERATOR_FRAMES)
 #define STREAM     BY(1u << FM_GENERATOR_STREAM)
-#define ANY_FRAMES BY(1u << FM_GENERATOR_FRAMES | 1u << FM_GENERATOR_STREAM)
+#define ANY_FRAMES BY(FM_MAKES_FRAMES)
 #define QUIET      .scope = FM_SCOPE_CASE, .is_quiet = true
 
 /* clang-format off */
@@ -37,7 +35,7 @@ const fm_key fm_keys[] = {
       .unit = "px", .help = "viewport" },
     { "height_px", FM_KEY_UINT, ANY, AT(height_px), .low = 1, .high = 16384, .fallback = "480",
       .unit = "px", .help = "viewport" },
-    { "generator", FM_KEY_ENUM, ANY, AT(generator), .values = { "layers", "mesh", "bunny-in-cube", "palace", "hairball", "engine", "temple", "hotel", "ivy", "frames", "stream" },
+    { "generator", FM_KEY_ENUM, ANY, AT(generator), .values = { "layers", "mesh", "bunny-in-cube", "palace", "hairball", "engine", "temple", "hotel", "ivy", "frames", "stream", "adversarial" },
       .fallback = "layers", .help = "what makes the scene" },
     { "n", FM_KEY_UINT, LAYERS, AT(n), .low = 0, .high = 65536, .fallback = "none",
       .optional = true, .absent = FM_NOT_GIVEN, .help = "layers" },

@@ -31,6 +31,7 @@ static fm_status fill(fm_scene *scene, fm_error *err)
         return procedural_generate(scene, err);
     case FM_GENERATOR_FRAMES:
     case FM_GENERATOR_STREAM:
+    case FM_GENERATOR_ADVERSARIAL:
         break; /* no scene of fragments: frames.h */
     }
     return fm_fail(err, FM_INVALID, "generator %s: its scenes are for feed frames",

@@ -201,7 +201,7 @@ const char *settings_file(const fm_settings *settings)
 
 bool generator_makes_frames(fm_generator generator)
 {
-    return generator == FM_GENERATOR_FRAMES || generator == FM_GENERATOR_STREAM;
+    return (FM_MAKES_FRAMES >> generator & 1) != 0;
 }
 
 bool settings_key_matters(const fm_settings *settings, const fm_key *key)

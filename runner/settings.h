@@ -26,9 +26,14 @@ typedef enum fm_generator {
     FM_GENERATOR_TEMPLE,
     FM_GENERATOR_HOTEL,
     FM_GENERATOR_IVY,
-    FM_GENERATOR_FRAMES, /* a sequence of draw calls, for the simulated GPU */
-    FM_GENERATOR_STREAM, /* the same, recorded: a file */
+    FM_GENERATOR_FRAMES,      /* a sequence of draw calls, for the simulated GPU */
+    FM_GENERATOR_STREAM,      /* the same, recorded: a file */
+    FM_GENERATOR_ADVERSARIAL, /* the same, random, to break techniques */
 } fm_generator;
+
+/* Generators of sequences, for feed `frames`: bit g, generator g. */
+#define FM_MAKES_FRAMES                                                                            \
+    (1u << FM_GENERATOR_FRAMES | 1u << FM_GENERATOR_STREAM | 1u << FM_GENERATOR_ADVERSARIAL)
 
 typedef enum fm_order {
     FM_ORDER_RANDOM,      /* layers arrive in one random order */
@@ -108,7 +113,8 @@ typedef struct fm_settings {
     uint32_t instances;
     double instance_offset[3]; /* in box sizes */
 
-    /* frames: what generators/frame_sequences.h makes of them; stream: frame_stream.h */
+    /* frames: what generators/frame_sequences.h makes of them; adversarial: adversarial.h there;
+     * stream: frame_stream.h */
     char stream[FM_PATH_MAX_BYTES]; /* file; relative to the scene file that names it */
     uint32_t sequence_frames;
     uint32_t backgrounds, sprites, triangles;

@@ -7,6 +7,7 @@
 #include <string.h>
 #include <xxhash.h>
 
+#include "../generators/adversarial.h"
 #include "../generators/frame_sequences.h"
 #include "clock.h"
 #include "device/tbr/models/cycles.h"
@@ -381,8 +382,11 @@ static fm_status replay(fm_sequence **sequence, const fm_settings *settings, fm_
 
 static fm_status make_sequence(fm_sequence **sequence, const fm_settings *settings, fm_error *err)
 {
-    return settings->generator == FM_GENERATOR_STREAM ? replay(sequence, settings, err)
-                                                      : frames_generate(sequence, settings, err);
+    if (settings->generator == FM_GENERATOR_STREAM)
+        return replay(sequence, settings, err);
+    if (settings->generator == FM_GENERATOR_ADVERSARIAL)
+        return adversarial_generate(sequence, settings, err);
+    return frames_generate(sequence, settings, err);
 }
 
 static fm_status start(run_state *run, fm_error *err)

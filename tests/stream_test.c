@@ -53,7 +53,7 @@ static void write_frames(const stream_file *file, uint32_t count)
             fm_draw_call draw = kit_woz();
             draw.texture_bytes16 = 32; /* two textures */
             frame_builder_draw(&builder, &draw);
-            kit_quad(&builder, (const int32_t[4]){ k, 0, 20 + k, 30 }, 7);
+            frame_builder_quad(&builder, (const int32_t[4]){ k, 0, 20 + k, 30 }, 7);
         }
         assert_int_equal(stream_writer_add(&writer, &builder.frame, &err), FM_OK);
     }

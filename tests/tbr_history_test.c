@@ -43,7 +43,7 @@ static const tbr_counters *draw_quads(runner *of, const uint32_t *depths, uint32
         call.texture = 1;
         call.texture_version = texture_version;
         frame_builder_draw(&builder, &call);
-        kit_quad(&builder, (const int32_t[4]){ 0, 0, SIDE, SIDE }, depths[i]);
+        frame_builder_quad(&builder, (const int32_t[4]){ 0, 0, SIDE, SIDE }, depths[i]);
     }
     assert_int_equal(frame_check(&builder.frame, 0, &err), FM_OK);
     assert_int_equal(tbr_frame(of->gpu, &builder.frame, &err), FM_OK);

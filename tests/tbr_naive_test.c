@@ -90,7 +90,8 @@ static void compare_sequence(twins *of, const kit_technique *technique, const na
 
 static void assert_twins_agree(const char *words, const naive_rules *rules)
 {
-    static const uint32_t flags[] = { KIT_ALL, KIT_NWOZ, KIT_TIES | KIT_SLOPED | KIT_NWOZ, 0 };
+    static const uint32_t flags[] = { ADVERSE_ALL, ADVERSE_NWOZ,
+                                      ADVERSE_TIES | ADVERSE_SLOPED | ADVERSE_NWOZ, 0 };
     kit_technique technique = kit_technique_open(words);
     kit_sequence sequence = { 0 };
     twins of = { .words = words };

@@ -133,8 +133,8 @@ static void check_lists(race *of)
 static void lists_are_stable_partitions_in_order_of_layers(void **state)
 {
     (void)state;
-    RACE(KIT_ALL, check_lists, "tbr-base", "tbr-evr-reorder");
-    RACE(KIT_NWOZ, check_lists, "tbr-base", "tbr-evr");
+    RACE(ADVERSE_ALL, check_lists, "tbr-base", "tbr-evr-reorder");
+    RACE(ADVERSE_NWOZ, check_lists, "tbr-base", "tbr-evr");
 }
 
 /* ---- counts ---- */
@@ -165,7 +165,7 @@ static void check_order_shades_no_more(race *of)
 static void nothing_shades_less_than_the_oracle(void **state)
 {
     (void)state;
-    RACE(KIT_ALL, check_oracle_shades_least, "tbr-base", "tbr-evr-reorder", "tbr-oracle-z");
+    RACE(ADVERSE_ALL, check_oracle_shades_least, "tbr-base", "tbr-evr-reorder", "tbr-oracle-z");
 }
 
 /* Of sloped primitives that is not so. Most of these sequences have one tile. */
@@ -197,7 +197,7 @@ static void check_first_frame(race *of)
 static void the_first_frame_costs_what_the_baseline_does(void **state)
 {
     (void)state;
-    RACE(KIT_ALL, check_first_frame, "tbr-base", "tbr-re", "tbr-evr", "tbr-evr-safe");
+    RACE(ADVERSE_ALL, check_first_frame, "tbr-base", "tbr-re", "tbr-evr", "tbr-evr-safe");
 }
 
 /* ---- static scenes ---- */
@@ -220,7 +220,7 @@ static void check_depth_is_settled(race *of)
 static void static_depths_settle_at_once(void **state)
 {
     (void)state;
-    RACE(KIT_STATIC | KIT_SLOPED | KIT_TIES | KIT_DISCARD, check_depth_is_settled,
+    RACE(ADVERSE_STATIC | ADVERSE_SLOPED | ADVERSE_TIES | ADVERSE_DISCARD, check_depth_is_settled,
          "tbr-evr-reorder");
 }
 
@@ -242,8 +242,8 @@ static void check_all_is_skipped(race *of)
 static void static_scenes_are_skipped_whole(void **state)
 {
     (void)state;
-    RACE(KIT_STATIC | KIT_ALL, check_all_is_skipped, "tbr-re");
-    RACE(KIT_STATIC | KIT_NWOZ, check_all_is_skipped, "tbr-re", "tbr-evr");
+    RACE(ADVERSE_STATIC | ADVERSE_ALL, check_all_is_skipped, "tbr-re");
+    RACE(ADVERSE_STATIC | ADVERSE_NWOZ, check_all_is_skipped, "tbr-re", "tbr-evr");
 }
 
 int main(void)

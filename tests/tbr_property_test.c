@@ -62,46 +62,48 @@ static void assert_draws_as_base(const char *words, uint32_t flags)
 static void reorder_draws_what_base_draws(void **state)
 {
     (void)state;
-    assert_draws_as_base("tbr-evr-reorder", KIT_ALL);
-    assert_draws_as_base("tbr-evr-reorder fvp=owner", KIT_ALL);
-    assert_draws_as_base("tbr-evr-reorder tie=paper", KIT_NWOZ | KIT_DISCARD | KIT_BARRIERS);
+    assert_draws_as_base("tbr-evr-reorder", ADVERSE_ALL);
+    assert_draws_as_base("tbr-evr-reorder fvp=owner", ADVERSE_ALL);
+    assert_draws_as_base("tbr-evr-reorder tie=paper",
+                         ADVERSE_NWOZ | ADVERSE_DISCARD | ADVERSE_BARRIERS);
 }
 
 static void re_draws_what_base_draws(void **state)
 {
     (void)state;
-    assert_draws_as_base("tbr-re", KIT_ALL);
-    assert_draws_as_base("tbr-re age=2 uploads=disable", KIT_ALL);
+    assert_draws_as_base("tbr-re", ADVERSE_ALL);
+    assert_draws_as_base("tbr-re age=2 uploads=disable", ADVERSE_ALL);
 }
 
 static void vro_lite_draws_what_base_draws(void **state)
 {
     (void)state;
-    assert_draws_as_base("tbr-vro-lite", KIT_ALL);
-    assert_draws_as_base("tbr-vro-lite", KIT_TIES | KIT_SLOPED);
+    assert_draws_as_base("tbr-vro-lite", ADVERSE_ALL);
+    assert_draws_as_base("tbr-vro-lite", ADVERSE_TIES | ADVERSE_SLOPED);
 }
 
 static void evr_safe_draws_what_base_draws(void **state)
 {
     (void)state;
-    assert_draws_as_base("tbr-evr-safe", KIT_ALL);
-    assert_draws_as_base("tbr-evr-safe", KIT_NWOZ);
-    assert_draws_as_base("tbr-evr-safe age=2", KIT_ALL);
-    assert_draws_as_base("tbr-evr-safe tie=paper", KIT_NWOZ | KIT_DISCARD | KIT_BARRIERS);
+    assert_draws_as_base("tbr-evr-safe", ADVERSE_ALL);
+    assert_draws_as_base("tbr-evr-safe", ADVERSE_NWOZ);
+    assert_draws_as_base("tbr-evr-safe age=2", ADVERSE_ALL);
+    assert_draws_as_base("tbr-evr-safe tie=paper",
+                         ADVERSE_NWOZ | ADVERSE_DISCARD | ADVERSE_BARRIERS);
 }
 
 static void z_prepass_draws_what_base_draws(void **state)
 {
     (void)state;
-    assert_draws_as_base("tbr-z-prepass", KIT_ALL);
+    assert_draws_as_base("tbr-z-prepass", ADVERSE_ALL);
 }
 
 static void oracles_draw_what_base_draws(void **state)
 {
     (void)state;
-    assert_draws_as_base("tbr-oracle-z", KIT_ALL);
-    assert_draws_as_base("tbr-oracle-tile", KIT_ALL);
-    assert_draws_as_base("tbr-te", KIT_ALL);
+    assert_draws_as_base("tbr-oracle-z", ADVERSE_ALL);
+    assert_draws_as_base("tbr-oracle-tile", ADVERSE_ALL);
+    assert_draws_as_base("tbr-te", ADVERSE_ALL);
 }
 
 /* ---- published EVR ---- */
@@ -135,8 +137,8 @@ static void published_evr_draws_wrong_images(void **state)
 {
     (void)state;
     const uint32_t count = sequence_count();
-    const uint32_t simple = count_wrong("tbr-evr", KIT_NWOZ, count);
-    const uint32_t all = count_wrong("tbr-evr tie=exact", KIT_ALL, count);
+    const uint32_t simple = count_wrong("tbr-evr", ADVERSE_NWOZ, count);
+    const uint32_t all = count_wrong("tbr-evr tie=exact", ADVERSE_ALL, count);
     print_rate("tbr-evr, flat opaque and blended quads", simple, count);
     print_rate("tbr-evr, everything", all, count);
     assert_true(simple > 0 && all > 0);
@@ -145,7 +147,7 @@ static void published_evr_draws_wrong_images(void **state)
 static void blended_depth_writers_may_not_be_reordered(void **state)
 {
     (void)state;
-    const uint32_t flags = KIT_NWOZ | KIT_BARRIERS;
+    const uint32_t flags = ADVERSE_NWOZ | ADVERSE_BARRIERS;
     const uint32_t wrong =
         count_wrong("tbr-evr-reorder tie=exact types=paper", flags, sequence_count());
     print_rate("tbr-evr-reorder types=paper, blended depth writers", wrong, sequence_count());
@@ -168,7 +170,7 @@ static void add_steps(fm_frame_builder *builder, const step *steps)
         const int32_t px[4] = { 0, 0, steps->is_half ? 8 : 16, 16 };
         draw.texture = (uint32_t)steps->name;
         frame_builder_draw(builder, &draw);
-        kit_quad(builder, px, steps->z16 * (FRAMES_DEPTH_MAX / 16));
+        frame_builder_quad(builder, px, steps->z16 * (FRAMES_DEPTH_MAX / 16));
     }
 }
 

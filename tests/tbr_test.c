@@ -35,7 +35,7 @@ static void add_rectangle(fm_frame_builder *builder, fm_draw_call of, const int3
                           uint32_t z)
 {
     frame_builder_draw(builder, &of);
-    kit_quad(builder, px, z);
+    frame_builder_quad(builder, px, z);
 }
 
 /* ---- CRC ---- */
@@ -160,7 +160,7 @@ static void static_scenes_are_skipped_from_the_third_frame_on(void **state)
     kit_sequence sequence = { 0 };
     for (size_t i = 0; i < 2; i++)
         for (uint32_t seed = 0; seed < 20; seed++) {
-            kit_random(&sequence, seed, KIT_NWOZ | KIT_STATIC);
+            kit_random(&sequence, seed, ADVERSE_NWOZ | ADVERSE_STATIC);
             kit_technique held;
             tbr *gpu = gpu_with(&held, skippers[i], sequence.width_px, sequence.height_px);
             for (uint32_t frame = 0; frame < sequence.count; frame++)
@@ -182,7 +182,7 @@ static void parts_that_nobody_needs_do_not_run(void **state)
     (void)state;
     kit_sequence woz = { 0 }, mixed = { 0 };
     kit_random(&woz, 3, 0);
-    kit_random(&mixed, 4, KIT_NWOZ);
+    kit_random(&mixed, 4, ADVERSE_NWOZ);
     kit_technique plain, hiding;
     tbr *base = gpu_with(&plain, "tbr-base", mixed.width_px, mixed.height_px);
     tbr *evr = gpu_with(&hiding, "tbr-evr", woz.width_px, woz.height_px);
@@ -211,7 +211,8 @@ static void layers_left_out_change_nothing(void **state)
     fm_error err = { 0 };
     for (uint32_t seed = 0; seed < 300; seed++) {
         tbr *gpus[2] = { NULL };
-        kit_random(&sequence, seed, seed % 2 == 0 ? KIT_SLOPED | KIT_TIES : KIT_DISCARD);
+        kit_random(&sequence, seed,
+                   seed % 2 == 0 ? ADVERSE_SLOPED | ADVERSE_TIES : ADVERSE_DISCARD);
         for (int i = 0; i < 2; i++) {
             const tbr_desc desc = { .width_px = sequence.width_px,
                                     .height_px = sequence.height_px,
@@ -274,7 +275,7 @@ static void counts_and_images_do_not_depend_on_threads_or_vectors(void **state)
     for (uint32_t seed = 0; seed < 60; seed++) {
         kit_technique technique = kit_technique_open(words[seed % 3]);
         tbr *gpus[3] = { NULL };
-        kit_random(&sequence, seed, KIT_ALL);
+        kit_random(&sequence, seed, ADVERSE_ALL);
         for (uint32_t i = 0; i < 3; i++) {
             const tbr_desc desc = { .width_px = sequence.width_px,
                                     .height_px = sequence.height_px,
