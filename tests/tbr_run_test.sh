@@ -52,6 +52,12 @@ counts() { grep ',,,' "$1/samples.csv" | grep -v per_core_s | cut -d, -f3,6-; }
 run --method tbr-evr-safe -o "$work/third" 2>/dev/null
 diff <(counts "$work/again") <(counts "$work/third") >/dev/null || fail "counts differ"
 
+# Made to break techniques: published EVR draws some of it wrong; all others are declared exact.
+"$program" run --device tbr --scene frames/adversarial --method all -a seed=1:4:+1 --no-report \
+    -o "$work/adversarial" 2>"$work/log" || { cat "$work/log"; exit 1; }
+[ "$(grep -c ',ok,' "$work/adversarial/summary.csv")" = 40 ] || fail "not 40 cases ok"
+grep -q ',,,wrong_tiles,[1-9]' "$work/adversarial/samples.csv" || fail "EVR draws what was made to break it"
+
 run --method tbr-base -a model=acumulate_cycles=2 -o "$work/typo" 2>"$work/log" && fail "a typo passed"
 grep -q "nearest is 'accumulate_cycles'" "$work/log" || { cat "$work/log"; fail "no nearest name"; }
 run --method kplus-array -o "$work/passes" 2>"$work/log" && fail "a method of passes ran"
