@@ -1,6 +1,8 @@
 /* gl_demo FRAMES: a small OpenGL program to record, of what the recorder has to tell apart: objects
  * with depth on a ground, a panel, blended sprites, an alpha test, a scissor, a depth clear within
- * the frame, a texture that is uploaded anew, and something that moves. 320 x 240 px. */
+ * the frame, a texture that is uploaded anew, something that moves, and a draw call of instances,
+ * which is only counted. 320 x 240 px. */
+#define GL_GLEXT_PROTOTYPES
 #include <GL/gl.h>
 #include <GL/glx.h>
 #include <X11/Xlib.h>
@@ -129,6 +131,13 @@ static void draw_panel(const GLuint textures[2])
     cone(50, 50, 30, -50);
 }
 
+static void draw_instances(void)
+{
+    const float corners[3][3] = { { 300, 220, 0 }, { 316, 220, 0 }, { 308, 236, 0 } };
+    glInterleavedArrays(GL_V3F, 0, corners);
+    glDrawArraysInstanced(GL_TRIANGLES, 0, 3, 2);
+}
+
 static void draw(const GLuint textures[2], int frame)
 {
     glClearColor(0.1f, 0.1f, 0.2f, 1);
@@ -139,6 +148,7 @@ static void draw(const GLuint textures[2], int frame)
     draw_objects(frame);
     draw_sprites(textures);
     draw_panel(textures);
+    draw_instances();
 }
 
 int main(int argc, char **argv)

@@ -14,6 +14,7 @@ record() { "$program" record "$@" >"$work/out" 2>"$work/log"; }
 record --frames 12 --size 640x480 -o "$work/demo" -- "$demo" 16 || fail "no recording"
 [ "$(cat "$work/out")" = "$work/demo.yml" ] || fail "stdout is not the scene"
 grep -q "12 frames of 320 x 240 px, 1032 triangles" "$work/log" || fail "other counts"
+grep -q " 12 of kinds that are not recorded" "$work/log" || fail "instances are not counted"
 # The rasteriser's vertex arithmetic is the driver's: counts must agree, bytes may not.
 [ "$(wc -c <"$work/demo.stream")" = "$(wc -c <scenes/frames/gl-demo.stream)" ] || fail "another size"
 "$program" run --device tbr --scene "$work/demo.yml" --method tbr-base,tbr-re,tbr-evr-safe -a launches=1 \

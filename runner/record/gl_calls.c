@@ -8,8 +8,10 @@ static const struct {
     const char *name;
     size_t offset;
 } entries[] = {
-#define RECORD_ENTRY(name) { #name, offsetof(gl_calls, name) },
-    RECORD_GL_CALLS(RECORD_ENTRY)
+#define RECORD_ENTRY(name)                               { #name, offsetof(gl_calls, name) },
+#define RECORD_UNSEEN_ENTRY(name, parameters, arguments) RECORD_ENTRY(name)
+    RECORD_UNSEEN_CALLS(RECORD_UNSEEN_ENTRY) RECORD_GL_CALLS(RECORD_ENTRY)
+#undef RECORD_UNSEEN_ENTRY
 #undef RECORD_ENTRY
 };
 

@@ -11,6 +11,8 @@
 
 #include <GL/glext.h>
 
+#include "record/unseen_calls.h"
+
 #define RECORD_GL_CALLS(X)                                                                         \
     X(glActiveTexture)                                                                             \
     X(glBegin)                                                                                     \
@@ -46,6 +48,7 @@
     X(glIsEnabled)                                                                                 \
     X(glMultiDrawArrays)                                                                           \
     X(glMultiDrawElements)                                                                         \
+    X(glDrawRangeElementsBaseVertex)                                                               \
     X(glNewList)                                                                                   \
     X(glRenderMode)                                                                                \
     X(glTexImage2D)                                                                                \
@@ -56,8 +59,10 @@
     X(glXSwapBuffers)
 
 typedef struct gl_calls {
-#define RECORD_MEMBER(name) __typeof__(name) *name;
-    RECORD_GL_CALLS(RECORD_MEMBER)
+#define RECORD_MEMBER(name)                               __typeof__(name) *name;
+#define RECORD_UNSEEN_MEMBER(name, parameters, arguments) RECORD_MEMBER(name)
+    RECORD_GL_CALLS(RECORD_MEMBER) RECORD_UNSEEN_CALLS(RECORD_UNSEEN_MEMBER)
+#undef RECORD_UNSEEN_MEMBER
 #undef RECORD_MEMBER
 } gl_calls;
 

@@ -16,6 +16,7 @@
 
 #include "frame_stream.h"
 #include "record/draw_state.h"
+#include "record/own_calls.h"
 
 #define RECORDED __attribute__((visibility("default")))
 enum { FIRST_FLOATS = 1 << 22, MAX_FLOATS = 1 << 27, DEFAULT_FRAMES = 60 };
@@ -26,8 +27,9 @@ typedef struct recorder {
     fm_stream_writer stream;
     fm_frame_builder frame;
     polygon_totals polygons;
-    uint64_t offscreen, unheard; /* draw calls into framebuffer objects; without feedback */
-    float *values;               /* of feedback */
+    uint64_t offscreen, unheard, unseen; /* draw calls into framebuffer objects; without feedback;
+                                            of kinds that are not recorded */
+    float *values;                       /* of feedback */
     size_t room;
     uint32_t first, wanted, swaps;
     uint32_t width_px, height_px;
@@ -70,10 +72,12 @@ static void write_totals(const recorder *r, const char *stream)
     if (file != NULL) {
         fprintf(file,
                 "%u frames of %u x %u px, %llu triangles; left out: %llu points, lines and "
-                "rectangles, %llu draw calls into framebuffer objects, %llu without feedback\n",
+                "rectangles, %llu draw calls into framebuffer objects, %llu without feedback, "
+                "%llu of kinds that are not recorded (instances, indirect, pixels)\n",
                 r->stream.head.frame_count, r->width_px, r->height_px,
                 (unsigned long long)r->polygons.triangles, (unsigned long long)r->polygons.dropped,
-                (unsigned long long)r->offscreen, (unsigned long long)r->unheard);
+                (unsigned long long)r->offscreen, (unsigned long long)r->unheard,
+                (unsigned long long)r->unseen);
         fclose(file);
     }
     free(path);
@@ -228,6 +232,13 @@ RECORDED void glDrawElementsBaseVertex(GLenum mode, GLsizei count, GLenum type, 
                 glDrawElementsBaseVertex(mode, count, type, indices, base));
 }
 
+RECORDED void glDrawRangeElementsBaseVertex(GLenum mode, GLuint start, GLuint end, GLsizei count,
+                                            GLenum type, const void *indices, GLint base)
+{
+    RECORD_DRAW(end - start + 1,
+                glDrawRangeElementsBaseVertex(mode, start, end, count, type, indices, base));
+}
+
 RECORDED void glMultiDrawArrays(GLenum mode, const GLint *first, const GLsizei *count,
                                 GLsizei draws)
 {
@@ -241,6 +252,24 @@ RECORDED void glMultiDrawElements(GLenum mode, const GLsizei *count, GLenum type
     for (GLsizei i = 0; i < draws; i++)
         glDrawElements(mode, count[i], type, indices[i]);
 }
+
+RECORDED void glMultiDrawElementsBaseVertex(GLenum mode, const GLsizei *count, GLenum type,
+                                            const void *const *indices, GLsizei draws,
+                                            const GLint *base)
+{
+    for (GLsizei i = 0; i < draws; i++)
+        glDrawElementsBaseVertex(mode, count[i], type, indices[i], base[i]);
+}
+
+#define RECORD_UNSEEN(name, parameters, arguments)                                                 \
+    RECORDED void name parameters                                                                  \
+    {                                                                                              \
+        recorder *r = opened();                                                                    \
+        r->unseen += judge(r) == RECORD;                                                           \
+        r->state.gl.name arguments;                                                                \
+    }
+RECORD_UNSEEN_CALLS(RECORD_UNSEEN)
+#undef RECORD_UNSEEN
 
 /* A list draws with the state that it sets on the way; it is recorded with that before it. */
 RECORDED void glCallList(GLuint list)
@@ -415,42 +444,11 @@ RECORDED void glXSwapBuffers(Display *display, GLXDrawable drawable)
     r->state.gl.glXSwapBuffers(display, drawable);
 }
 
-static const struct {
-    const char *name;
-    __GLXextFuncPtr function;
-} own_calls[] = {
-#define RECORD_OWN(name)                                                                           \
-    {                                                                                              \
-#name, (__GLXextFuncPtr)name                                                               \
-    }
-    RECORD_OWN(glBegin),
-    RECORD_OWN(glCallList),
-    RECORD_OWN(glCallLists),
-    RECORD_OWN(glClear),
-    RECORD_OWN(glCompressedTexImage2D),
-    RECORD_OWN(glCompressedTexSubImage2D),
-    RECORD_OWN(glCopyTexImage2D),
-    RECORD_OWN(glCopyTexSubImage2D),
-    RECORD_OWN(glDrawArrays),
-    RECORD_OWN(glDrawElements),
-    RECORD_OWN(glDrawElementsBaseVertex),
-    RECORD_OWN(glDrawRangeElements),
-    RECORD_OWN(glEnd),
-    RECORD_OWN(glEndList),
-    RECORD_OWN(glMultiDrawArrays),
-    RECORD_OWN(glMultiDrawElements),
-    RECORD_OWN(glNewList),
-    RECORD_OWN(glTexImage2D),
-    RECORD_OWN(glTexSubImage2D),
-    RECORD_OWN(glXSwapBuffers),
-#undef RECORD_OWN
-};
-
 RECORDED __GLXextFuncPtr glXGetProcAddress(const GLubyte *name)
 {
-    for (size_t i = 0; i < sizeof own_calls / sizeof own_calls[0]; i++)
-        if (strcmp((const char *)name, own_calls[i].name) == 0)
-            return own_calls[i].function;
+    const __GLXextFuncPtr own = own_call((const char *)name);
+    if (own != NULL)
+        return own;
     return opened()->state.gl.glXGetProcAddress(name);
 }
 
