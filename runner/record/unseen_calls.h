@@ -1,6 +1,5 @@
 /* What draws and is not recorded, only passed on and counted: X(name, (parameters), (arguments)).
- * Feedback mode knows no instances and no parameters that lie in buffers, and of pixels no colour.
- */
+ * Instances, parameters that lie in buffers, rectangles of pixels, and old ways to draw. */
 #ifndef FM_RECORD_UNSEEN_CALLS_H
 #define FM_RECORD_UNSEEN_CALLS_H
 
