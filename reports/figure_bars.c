@@ -16,18 +16,9 @@ static const double slot_px = 24;
 
 static void add_upright(fm_chart *chart, bar_place *place, const fm_case_row *result)
 {
-    fm_label *label = chart_add_label(chart);
-    if (label == NULL)
-        return;
     char title[96];
     group_series_title(title, result, NULL);
-    *label = (fm_label){ .x_px = (place->slot + 0.5) * slot_px + 4,
-                         .y_px = -7,
-                         .anchor = FM_ANCHOR_END,
-                         .upright = true };
-    snprintf(label->text, sizeof label->text, "%.63s", title);
-    size_t width = (size_t)chart_text_width_px(label->text, 11);
-    label->y_px = -7;
+    const size_t width = figure_add_upright(chart, (place->slot + 0.5) * slot_px, title);
     if (width > place->top_row)
         place->top_row = width;
 }
@@ -67,12 +58,6 @@ static double add_single(fm_figure_job *at, const bar_place *place, const fm_cas
                      .y1 = value.median,
                      .colour = look_family_colour(result->look.family) };
     return value.median;
-}
-
-static const char *base_name(const char *scene)
-{
-    const char *slash = strrchr(scene, '/');
-    return slash != NULL ? slash + 1 : scene;
 }
 
 static void add_cluster_title(fm_figure_job *at, double from, double to, const char *text)
@@ -131,7 +116,7 @@ static void add_cluster(fm_figure_job *at, bar_place *place, double x, bool leve
     if (level)
         snprintf(text, sizeof text, "any %.32s", at->from->x);
     else if (figure_is_by_scene(at))
-        snprintf(text, sizeof text, "%.60s", base_name(at->figure->scenes.names[(size_t)x - 1]));
+        snprintf(text, sizeof text, "%.60s", figure_scene_name(at, (size_t)x));
     else
         snprintf(text, sizeof text, "%.32s = %.6g", at->from->x, x);
     add_cluster_title(at, from, place->slot, text);

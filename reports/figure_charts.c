@@ -38,6 +38,22 @@ bool figure_is_by_scene(const fm_figure_job *at)
     return strcmp(at->from->x, "scene") == 0;
 }
 
+const char *figure_scene_name(const fm_figure_job *at, size_t place)
+{
+    const char *scene = at->figure->scenes.names[place - 1], *slash = strrchr(scene, '/');
+    return slash != NULL ? slash + 1 : scene;
+}
+
+size_t figure_add_upright(fm_chart *chart, double x_px, const char *text)
+{
+    fm_label *label = chart_add_label(chart);
+    if (label == NULL)
+        return 0;
+    *label = (fm_label){ .x_px = x_px + 4, .y_px = -7, .anchor = FM_ANCHOR_END, .upright = true };
+    snprintf(label->text, sizeof label->text, "%.63s", text);
+    return (size_t)chart_text_width_px(label->text, 11);
+}
+
 /* Scenes are numbered as the figure lists them; an option's value may be an x too. */
 double figure_x(const fm_figure_job *at, const fm_case_row *result)
 {

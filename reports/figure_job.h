@@ -24,6 +24,10 @@ size_t figure_distinct_x(double *xs, const fm_figure_job *at);
 /* x is the scene: a place for each that the figure lists, from 1 on. */
 bool figure_is_by_scene(const fm_figure_job *at);
 double figure_x(const fm_figure_job *at, const fm_case_row *result);
+/* Of the scene at that place, from 1 on, without its folder. */
+const char *figure_scene_name(const fm_figure_job *at, size_t place);
+/* A name below the plot, read from below; returns how far it reaches, px. */
+size_t figure_add_upright(fm_chart *chart, double x_px, const char *text);
 fm_interval figure_y(const fm_figure_job *at, const fm_case_row *result);
 /* The paper's first value for a method at x, of the group's workload; NAN: none is printed. */
 double figure_paper_value(const fm_figure_job *at, const char *method, double x);

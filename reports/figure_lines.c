@@ -302,7 +302,6 @@ static const struct {
     { "pixel_density", "pixel density", "" },
     { "tessellation", "tessellation (cells a side)", "" },
     { "width_px", "width of the viewport", "px" },
-    { "scene", "scene, by its place in the figure's list", "" },
 };
 
 static void quantity_title(char title[128], const char *name, const char *unit)
@@ -348,6 +347,36 @@ static void title_axes(fm_figure_job *at)
         figure_title_ratio(at->chart->y.title, at);
 }
 
+static void fit_numbers(fm_figure_job *at)
+{
+    fm_axis *x = &at->chart->x;
+    x->scale = FM_SCALE_LOG;
+    for (size_t i = 0; i < at->x_count; i++)
+        if (at->x[i] <= 0.0)
+            x->scale = FM_SCALE_LINEAR;
+    axis_fit(x, at->x, at->x_count);
+    axis_tick_values(x, at->x, at->x_count);
+}
+
+/* Ticks without numbers, and the scenes' names below them, in place of a title. */
+static void name_scenes(fm_figure_job *at)
+{
+    fm_axis *x = &at->chart->x;
+    size_t widest = 0;
+    x->scale = FM_SCALE_LINEAR;
+    x->low = 0.5;
+    x->high = (double)at->figure->scenes.count + 0.5;
+    x->title[0] = '\0';
+    for (size_t place = 1; place <= at->figure->scenes.count; place++) {
+        const size_t width = figure_add_upright(at->chart, axis_position(x, (double)place),
+                                                figure_scene_name(at, place));
+        widest = width > widest ? width : widest;
+        if (x->tick_count < FM_AXIS_TICKS)
+            x->ticks[x->tick_count++] = (fm_tick){ .value = (double)place };
+    }
+    at->chart->bottom_px = (int)widest + 24;
+}
+
 fm_status figure_make_lines(fm_figure_job *at, const fm_figure_job *reference, double *xs,
                             fm_error *err)
 {
@@ -363,15 +392,13 @@ fm_status figure_make_lines(fm_figure_job *at, const fm_figure_job *reference, d
         return fm_fail(err, FM_UNSUPPORTED, "%s: no case has %s%s%s", at->group->title, at->from->y,
                        at->from->ratio_to == NULL ? "" : " and one of ",
                        at->from->ratio_to == NULL ? "" : at->from->ratio_to);
-    chart->x.scale = FM_SCALE_LOG;
-    for (size_t i = 0; i < at->x_count; i++)
-        if (at->x[i] <= 0.0 || figure_is_by_scene(at))
-            chart->x.scale = FM_SCALE_LINEAR;
     chart->y.scale = at->from->is_log ? FM_SCALE_LOG : FM_SCALE_LINEAR;
-    axis_fit(&chart->x, at->x, at->x_count);
-    axis_tick_values(&chart->x, at->x, at->x_count);
     axis_fit(&chart->y, at->y, at->y_count);
     title_axes(at);
+    if (figure_is_by_scene(at))
+        name_scenes(at);
+    else
+        fit_numbers(at);
     size_t note = 0;
     snprintf(chart->notes[note++], sizeof chart->notes[0], "bars: 95 %% intervals");
     if (paper_values > own_values)

@@ -18,14 +18,17 @@
  *       kind: lines            or stacked-bars, grouped-bars, tornado
  *       title: ...
  *       x: k                   a number column of summary.csv, an option, or scene: a place
- *                              for each scene that the run lists; tornado: what the mean is over
- *       y: frame_ms            lines, grouped-bars: any metric, or a list of which the sum is
- * drawn; tornado: the metric with all parameters at their defaults parts: [clear_ms, ...]
- * stacked-bars: metrics, from the bottom up sweep:                 tornado: for each parameter y
- * with it alone at its lowest, and at its highest value: a horizontal bar from one ratio to the
- * other, the longest on top; the line across is the defaults' ratio
+ *                              for each scene that the run lists, under its name
+ *                              tornado: what the mean is over
+ *       y: frame_ms            lines, grouped-bars: any metric, or a list whose sum is drawn
+ *                              tornado: the metric with all parameters at their defaults
+ *       parts: [clear_ms, ...] stacked-bars: metrics, from the bottom up
+ *       sweep:                 tornado: for each parameter y with it alone at its lowest, and at
+ *                              its highest value: a horizontal bar from one ratio to the other,
+ *                              the longest on top; the line across is the defaults' ratio
  *         - { name: dram_latency_cycles, low: METRIC, high: METRIC }
- *       ratio_to: kplus-array  lines: y over that method's at the same x; tornado: the mean of that
+ *       ratio_to: kplus-array  lines: y over that method's at the same x
+ *                              tornado: the mean of that
  *       with_paper: true       lines, grouped-bars: the paper's points, hollow
  *       across: [height_px]    columns that change with x
  *       y_scale: log           or linear, the default

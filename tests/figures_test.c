@@ -231,6 +231,38 @@ static void tornado_has_the_longest_bar_on_top(void **state)
     close_fixture(&with);
 }
 
+static void lines_by_scene_bear_the_scenes_names(void **state)
+{
+    (void)state;
+    fixture with;
+    fm_groups groups;
+    fm_chart chart;
+    fm_error err = { 0 };
+    open_fixture_of(&with, &usual,
+                    "id: f-1\npaper: f\ntitle: t\n"
+                    "run: { methods: [a, b], scenes: [folder/absent, layers], feeds: [raster] }\n"
+                    "charts:\n  - { id: c, title: c, x: scene, y: frame_ms }\n",
+                    "figure,case_id\nf-1,c0\nf-1,c2\n");
+    make_groups(&groups, &with, &with.figure->charts[0]);
+    assert_int_equal(groups.count, 1);
+    const fm_figure_source own = { with.results, &groups.groups[0] }, none = { NULL, NULL };
+    assert_int_equal(
+        figure_chart_make(&chart, with.figure, &with.figure->charts[0], &own, &none, &err), FM_OK);
+    assert_int_equal(chart.label_count, 2);
+    assert_string_equal(chart.labels[0].text, "absent");
+    assert_string_equal(chart.labels[1].text, "layers");
+    assert_true(chart.labels[1].upright);
+    assert_true(chart.series[0].points[0].x == 2.0);
+    assert_true(fabs(chart.labels[1].x_px - axis_position(&chart.x, 2.0)) < 10);
+    assert_int_equal(chart.x.tick_count, 2);
+    assert_string_equal(chart.x.ticks[1].label, "");
+    assert_string_equal(chart.x.title, "");
+    assert_true(chart.bottom_px > chart_text_width_px("absent", 11));
+    chart_free(&chart);
+    groups_free(&groups);
+    close_fixture(&with);
+}
+
 static fm_status read_tornado(const char *keys, fm_error *err)
 {
     char directory[64], path[256], text[512];
@@ -388,6 +420,7 @@ int main(void)
         cmocka_unit_test(required_claim_that_fails_is_exit_code_1),
         cmocka_unit_test(a_run_is_no_reference_of_itself),
         cmocka_unit_test(another_machine_draws_thin_curves),
+        cmocka_unit_test(lines_by_scene_bear_the_scenes_names),
         cmocka_unit_test(tornado_has_the_longest_bar_on_top),
         cmocka_unit_test(tornado_needs_a_sweep_and_nothing_else_does),
     };
