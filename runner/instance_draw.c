@@ -124,7 +124,7 @@ uint64_t pass_units(const fm_instance *instance, const fm_pass *pass)
 
 uint64_t pass_invocations(const fm_instance *instance, const fm_pass *pass)
 {
-    return pass_units(instance, pass) * pass_lanes(pass);
+    return pass_units(instance, pass) * pass_lanes(instance, pass);
 }
 
 fm_status pass_dispatch(fm_instance *instance, const fm_pass *pass, const built_pass *built,

@@ -78,6 +78,8 @@ static fm_status run_pass(frame_run *frame, size_t index, uint32_t iteration)
     fm_instance *instance = frame->instance;
     const fm_pass *pass = &instance->method->passes[index];
     const bool is_total = pass->kind == FM_PASS_TOTAL;
+    if (pass_is_left_out(instance, pass))
+        return FM_OK;
     fm_status status = record(frame);
     if (status != FM_OK || pass->kind == FM_PASS_HOST)
         return status;

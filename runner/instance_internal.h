@@ -93,13 +93,12 @@ fm_status pass_source(fm_text *text, const built_pass *built, const fm_instance 
                       const fm_pass *pass, fm_error *err);
 
 /* instance_passes.c */
+bool instance_is_narrow(const fm_instance *instance); /* as in method.h: narrow_only */
+bool pass_is_left_out(const fm_instance *instance, const fm_pass *pass); /* on this device */
 /* Whether its shader sees the scene's triangles. */
 bool pass_reads_triangles(const fm_instance *instance, const fm_pass *pass);
 /* Invocations of each unit. */
-static inline uint32_t pass_lanes(const fm_pass *pass)
-{
-    return pass->lanes > 0 ? pass->lanes : 1;
-}
+uint32_t pass_lanes(const fm_instance *instance, const fm_pass *pass);
 fm_status passes_create(fm_instance *instance, fm_error *err);
 void passes_destroy(fm_instance *instance);
 /* What the scene pass draws. */

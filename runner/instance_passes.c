@@ -83,6 +83,23 @@ static void add_emit(built_pass *built, fm_instance *instance)
         add_stage(built, instance, STAGE_OUTPUT_BACK, FM_ACCESS_READ | FM_ACCESS_WRITE);
 }
 
+bool instance_is_narrow(const fm_instance *instance)
+{
+    return instance->device->caps.subgroup_size < 32;
+}
+
+bool pass_is_left_out(const fm_instance *instance, const fm_pass *pass)
+{
+    return pass->narrow_only && !instance_is_narrow(instance);
+}
+
+uint32_t pass_lanes(const fm_instance *instance, const fm_pass *pass)
+{
+    const uint32_t lanes =
+        instance_is_narrow(instance) && pass->lanes_narrow > 0 ? pass->lanes_narrow : pass->lanes;
+    return lanes > 0 ? lanes : 1;
+}
+
 bool pass_reads_triangles(const fm_instance *instance, const fm_pass *pass)
 {
     return instance->desc.stage->feed == FM_FEED_TRIANGLES &&
@@ -267,7 +284,8 @@ fm_status passes_create(fm_instance *instance, fm_error *err)
 {
     fm_status status = FM_OK;
     for (size_t i = 0; i < instance->pass_count && status == FM_OK; i++)
-        status = build_pass(&instance->passes[i], instance, &instance->method->passes[i], err);
+        if (!pass_is_left_out(instance, &instance->method->passes[i]))
+            status = build_pass(&instance->passes[i], instance, &instance->method->passes[i], err);
     if (status == FM_OK && instance->emits_back && !instance->desc.is_capture)
         status = build_combine(instance, err);
     return status;

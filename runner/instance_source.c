@@ -60,7 +60,7 @@ static void define_option(fm_text *text, const fm_option *option, const char *va
 static bool emits_first(const fm_instance *instance, const fm_pass *pass)
 {
     for (const fm_pass *before = instance->method->passes; before < pass; before++)
-        if (before->emits)
+        if (before->emits && !pass_is_left_out(instance, before))
             return false;
     return true;
 }
@@ -94,6 +94,7 @@ static void define_all(fm_text *text, const fm_instance *instance, const fm_pass
     shader_define(text, "FM_GROUP_LANES", FM_GROUP_LANES);
     shader_define(text, "FM_LOOP_LIMIT", caps->loop_limit);
     shader_define(text, "FM_SUBGROUP_SIZE", caps->subgroup_size);
+    shader_define(text, "FM_NARROW", instance_is_narrow(instance));
     shader_define_features(text, instance->method->features_optional, caps->features);
     if (instance->emits_back)
         shader_define(text, "FM_EMITS_BACK", 1);
@@ -170,7 +171,7 @@ static void add_index_main(fm_text *text, const fm_instance *instance, const fm_
 {
     char name[64];
     glsl_name(name, pass->name);
-    const uint32_t lanes = pass_lanes(pass);
+    const uint32_t lanes = pass_lanes(instance, pass);
     text_add(text, "void main()\n{\n"
                    "    uint id = gl_GlobalInvocationID.y * (gl_NumWorkGroups.x * "
                    "gl_WorkGroupSize.x)\n        + gl_GlobalInvocationID.x;\n");

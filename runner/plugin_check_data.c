@@ -325,6 +325,8 @@ static fm_status check_total(const fm_checked_method *check, const fm_total *tot
     const fm_status status = check_known(&index, total->pass, "pass", &check->passes, err);
     if (status != FM_OK)
         return status;
+    if (check->method->passes[index].narrow_only)
+        return fm_fail(err, FM_INVALID, "pass '%s': is left out on some devices", total->pass);
     if (total->resource != NULL)
         return check_source(check, total, err);
     if (total->sum || total->index != 0)

@@ -301,17 +301,17 @@ static fm_status check_flat_option(const fm_checked_method *check, const fm_pass
     return fm_fail(err, FM_INVALID, "flat_option '%s': has no value 'flat'", pass->flat_option);
 }
 
-static fm_status check_lanes(const fm_pass *pass, fm_error *err)
+static fm_status check_lanes(const fm_pass *pass, const char *name, uint32_t lanes, fm_error *err)
 {
-    if (pass->lanes == 0)
+    if (lanes == 0)
         return FM_OK;
     if (pass->kind != FM_PASS_TILES && pass->kind != FM_PASS_TRIANGLES &&
         pass->kind != FM_PASS_TOTAL)
-        return fm_fail(err, FM_INVALID, "lanes: a pass of kind %s has none",
+        return fm_fail(err, FM_INVALID, "%s: a pass of kind %s has none", name,
                        kind_rules[pass->kind].name);
-    if (pass->lanes > FM_GROUP_LANES || (pass->lanes & (pass->lanes - 1)) != 0)
-        return fm_fail(err, FM_INVALID, "lanes: %" PRIu32 ": a power of two, %d at most",
-                       pass->lanes, FM_GROUP_LANES);
+    if (lanes > FM_GROUP_LANES || (lanes & (lanes - 1)) != 0)
+        return fm_fail(err, FM_INVALID, "%s: %" PRIu32 ": a power of two, %d at most", name, lanes,
+                       FM_GROUP_LANES);
     return FM_OK;
 }
 
@@ -327,13 +327,16 @@ static fm_status check_flags(const fm_checked_method *check, const fm_pass *pass
         (pass->kind != FM_PASS_SCENE || check->method->feeds != FM_FEED_RASTER))
         return fm_fail(err, FM_INVALID,
                        "cover: only scene passes of methods that take the raster feed only");
-    if (pass->emits && pass->kind != FM_PASS_PIXELS && pass->kind != FM_PASS_TILES)
+    if (pass->emits && pass->kind != FM_PASS_PIXELS && pass->kind != FM_PASS_TILES &&
+        pass->kind != FM_PASS_INDIRECT)
         return fm_fail(err, FM_INVALID, "emits: a pass of kind %s cannot",
                        kind_rules[pass->kind].name);
     if (check->method->feeds == FM_FEED_TRIANGLES && pass->kind == FM_PASS_SCENE)
         return fm_fail(err, FM_INVALID,
                        "kind scene: the feed triangles has no fragments, only triangles");
-    const fm_status status = check_lanes(pass, err);
+    fm_status status = check_lanes(pass, "lanes", pass->lanes, err);
+    if (status == FM_OK)
+        status = check_lanes(pass, "lanes_narrow", pass->lanes_narrow, err);
     return status == FM_OK ? check_flat_option(check, pass, err) : status;
 }
 
@@ -390,7 +393,7 @@ fm_status check_passes(const fm_checked_method *check, fm_error *err)
         const fm_pass *pass = &check->method->passes[i];
         if (check_pass(check, pass, err) != FM_OK)
             return fm_error_prefix(err, "pass '%s'", pass->name);
-        emits = emits || pass->emits;
+        emits = emits || (pass->emits && !pass->narrow_only);
     }
     if (!emits && !(check->method->traits & FM_TRAIT_FLOOR))
         return fm_fail(err, FM_INVALID, "passes: none emits");

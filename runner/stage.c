@@ -4,8 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "triangles.h"
-
 /* 29 bits number a triangle; the 3 above, a part of a clipped one. */
 #define TRIANGLES_MAX ((1u << 29) - 1u)
 enum { INDICES_PER_QUAD = 6, CORNERS_PER_QUAD = 4 };
@@ -293,7 +291,6 @@ static fm_status create_shared(fm_stage *stage, fm_error *err)
     return status;
 }
 
-/* As a renderer knows from bounding boxes: without triangles that are cut, nothing is clipped. */
 static fm_status look_at_triangles(fm_stage *stage, fm_error *err)
 {
     const fm_scene *scene = stage->scene;
@@ -301,7 +298,7 @@ static fm_status look_at_triangles(fm_stage *stage, fm_error *err)
         return fm_fail(err, FM_UNSUPPORTED,
                        "%" PRIu64 " triangles: the feed triangles carries %u at most",
                        scene->triangles, TRIANGLES_MAX);
-    stage->clips = triangles_need_clip(scene);
+    stage->view = triangles_view(scene);
     return FM_OK;
 }
 

@@ -5,6 +5,7 @@
 
 #include "scene.h"
 #include "shader.h"
+#include "triangles.h"
 #include "truth.h"
 
 enum {
@@ -52,12 +53,12 @@ typedef struct fm_stage_cover {
 typedef struct fm_stage {
     fm_device *device;
     const fm_scene *scene;
-    uint32_t feed;        /* one of FM_FEED_* */
-    uint32_t n;           /* most fragments of a pixel */
-    uint64_t invocations; /* of a compute feed */
-    bool replays;         /* a compute feed from the captured list */
-    bool clips;           /* feed triangles: some have to be clipped */
-    fm_buffers buffers;   /* how storage buffers are reached */
+    uint32_t feed;          /* one of FM_FEED_* */
+    uint32_t n;             /* most fragments of a pixel */
+    uint64_t invocations;   /* of a compute feed */
+    bool replays;           /* a compute feed from the captured list */
+    fm_triangles_view view; /* feed triangles */
+    fm_buffers buffers;     /* how storage buffers are reached */
     fm_slot slots[STAGE_SLOT_COUNT];
     fm_buffer *params;
     fm_buffer *vertices, *indices;

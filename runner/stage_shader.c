@@ -39,7 +39,9 @@ static void define_triangles(fm_text *text, const fm_stage *stage)
     const uint32_t each = triangles_per_instance(scene);
     shader_define(text, "FM_TRIANGLES", scene->triangles);
     shader_define(text, "FM_INSTANCE_TRIANGLES", each > 0 ? each : 1); /* a divisor */
-    shader_define(text, "FM_CLIPS", stage->clips);
+    shader_define(text, "FM_CLIPS", stage->view.clips);
+    define_float(text, "FM_NEAREST", stage->view.nearest);
+    define_float(text, "FM_FARTHEST", stage->view.farthest);
     define_float(text, "FM_GUARD_X", raster_guard(scene->width_px));
     define_float(text, "FM_GUARD_Y", raster_guard(scene->height_px));
     define_float(text, "FM_NDC_STEP_X", triangles_ndc_step(scene->width_px));

@@ -1,5 +1,7 @@
 #include "triangles.h"
 
+#include <math.h>
+
 /* Corners of the two triangles of a quad (0 1 / 2 3), as stage.c indexes them. */
 static const uint32_t quad_corner[2][3] = { { 0, 1, 2 }, { 2, 1, 3 } };
 
@@ -73,13 +75,28 @@ void triangle_of(fm_triangle *triangle, const fm_scene *scene, uint64_t number)
                                            scene->vertices[index[i]].position);
 }
 
-bool triangles_need_clip(const fm_scene *scene)
+/* z / w where the corner lies between the planes of near and far. */
+static void add_depth(fm_triangles_view *view, const fm_clip_corner *corner)
 {
+    if (!(corner->w > 0 && corner->z >= 0 && corner->z <= corner->w))
+        return;
+    const float depth = corner->z / corner->w;
+    view->nearest = fminf(view->nearest, depth);
+    view->farthest = fmaxf(view->farthest, depth);
+}
+
+fm_triangles_view triangles_view(const fm_scene *scene)
+{
+    fm_triangles_view view = { .nearest = 1, .farthest = 0 };
     fm_triangle triangle;
     for (uint64_t i = 0; i < scene->triangles; i++) {
         triangle_of(&triangle, scene, i);
-        if (raster_needs_clip(scene->width_px, scene->height_px, triangle.corners))
-            return true;
+        view.clips =
+            view.clips || raster_needs_clip(scene->width_px, scene->height_px, triangle.corners);
+        for (int j = 0; j < 3; j++)
+            add_depth(&view, &triangle.corners[j]);
     }
-    return false;
+    if (view.nearest > view.farthest)
+        return (fm_triangles_view){ .clips = view.clips, .nearest = 0, .farthest = 1 };
+    return view;
 }

@@ -19,7 +19,13 @@ uint32_t triangles_per_instance(const fm_scene *scene);
 void triangle_of(fm_triangle *triangle, const fm_scene *scene, uint64_t number);
 /* 2 / size as shaders are told it: pixels become NDC by one multiplication, on every device. */
 float triangles_ndc_step(uint32_t size_px);
-/* Whether any triangle has to be clipped or dropped before it is set up. */
-bool triangles_need_clip(const fm_scene *scene);
+
+/* What a renderer knows from bounding boxes. */
+typedef struct fm_triangles_view {
+    bool clips;              /* some triangle has to be clipped or dropped before it is set up */
+    float nearest, farthest; /* corners between the planes of near and far lie between these */
+} fm_triangles_view;
+
+fm_triangles_view triangles_view(const fm_scene *scene);
 
 #endif

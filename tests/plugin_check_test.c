@@ -247,6 +247,7 @@ static void plugin_check_rejects_bad_totals(void **state)
     REFUSES(m.totals[0].name = "Stored", "total");
     REFUSES(m.totals[0].pass = NULL, "total 'stored': pass: missing");
     REFUSES(m.totals[0].pass = "counts", "no such pass; nearest is 'count'");
+    REFUSES(m.passes[COUNT].narrow_only = true, "pass 'count': is left out on some devices");
     REFUSES(m.totals[0].resource = "fragments", "FM_ELEMENT_UINT");
     REFUSES(m.totals[0].resource = "colour", "FM_ELEMENT_UINT");
     REFUSES(m.totals[0].resource = "count", "nearest is 'counts'");
@@ -291,9 +292,12 @@ static void plugin_check_rejects_bad_passes(void **state)
     REFUSES(m.passes[CLEAR].emits = true, "emits");
     REFUSES(m.passes[STORE].emits = true, "emits: a pass of kind scene cannot");
     REFUSES(m.passes[RESOLVE].emits = false, "none emits");
+    REFUSES(m.passes[RESOLVE].narrow_only = true, "none emits");
     REFUSES(m.passes[COUNT].lanes = 2, "lanes: a pass of kind");
     REFUSES(m.passes[SPREAD].lanes = 3, "lanes: 3: a power of two");
     REFUSES(m.passes[SPREAD].lanes = 128, "lanes: 128: a power of two, 64 at most");
+    REFUSES(m.passes[SPREAD].lanes_narrow = 3, "lanes_narrow: 3: a power of two");
+    REFUSES(m.passes[COUNT].lanes_narrow = 2, "lanes_narrow: a pass of kind");
     REFUSES(m.feeds = FM_FEED_TRIANGLES, "kind scene: the feed triangles has no fragments");
     REFUSES(m.passes[SPREAD].count_total = NULL, "count_total: needed");
     REFUSES(m.passes[SPREAD].count_total = "store", "nearest is 'stored'");

@@ -30,11 +30,13 @@
  *   triangles     in the feed of that name, passes over tiles, triangles, totals and indirect ones
  *                 see the scene's FM_TRIANGLES triangles in drawing order (common/triangles.glsl:
  *                 fm_triangle, fm_triangle_colour, fm_triangle_lives), and rasterise as truth does
- *                 with #include "common/rasterise.glsl"
+ *                 with #include "common/rasterise.glsl". Between FM_NEAREST and FM_FARTHEST lie the
+ *                 depths of corners that no plane cuts off: a hint, to be clamped to
  *   emit          fm_emit(pixel, rank, depth, colour) hands over one fragment: rank counts from the
  *                 front (0, 1, ...) in front-to-back order, or from the back (-1, -2, ...).
  *                 A pass over tiles does so between its own calls of fm_emit_begin(pixel) and
- *                 fm_emit_end(pixel), once for every pixel of the viewport
+ *                 fm_emit_end(pixel), once for every pixel of the viewport; so does an indirect
+ *                 one, for every pixel if it is the first that emits
  *                 fm_blended(pixel, colour), instead, hands over one vec4 (premultiplied) where an
  *                 approximation has a colour and no fragments: the image is then its only error
  *   a fragment    in 8 bytes is fm_pack(depth, colour), a uvec2 whose .x compares as the depth
@@ -44,9 +46,9 @@
  *   loops         fm_iteration is the number of the running iteration, from 0. FM_LOOP before a
  *                 for or while keeps it from being unrolled: pipelines compile in less time
  *   order         fm_fence() between two accesses that others must see in this order
- *   devices       FM_SUBGROUP_SIZE; FM_HAS_FEATURE is 1 or 0 for each of features_optional;
- *                 FM_LOOP_LIMIT iterations of all loops of an invocation, 0: any
- * colour is RGBA8, red in the low byte, premultiplied by alpha; depth is in [0,1]. */
+ *   devices       FM_SUBGROUP_SIZE, FM_NARROW if that is below 32; FM_HAS_FEATURE is 1 or 0 for
+ * each of features_optional; FM_LOOP_LIMIT iterations of all loops of an invocation, 0: any colour
+ * is RGBA8, red in the low byte, premultiplied by alpha; depth is in [0,1]. */
 #ifndef FRAGMARK_METHOD_H
 #define FRAGMARK_METHOD_H
 
@@ -56,7 +58,7 @@
 
 #include "fragmark/status.h"
 
-#define FM_ABI 2u
+#define FM_ABI 3u
 
 enum {
     FM_MAX_OPTIONS = 8,
@@ -351,8 +353,8 @@ typedef struct fm_pass {
     fm_target targets[FM_MAX_TARGETS];
     fm_state state;
     bool exclusive; /* store() runs alone at its pixel: spin lock or interlock */
-    bool emits;     /* FM_PASS_PIXELS, FM_PASS_TILES: calls fm_emit; the last such pass completes
-                       the image */
+    bool emits; /* FM_PASS_PIXELS, _TILES, _INDIRECT: calls fm_emit; the last such pass completes
+                   the image */
     bool flat_tessellation;  /* a scene pass whose fragments do not depend on the tessellation is
                                 drawn with t = 1 */
     const char *count_total; /* FM_PASS_TOTAL */
@@ -363,6 +365,8 @@ typedef struct fm_pass {
     uint32_t lanes; /* FM_PASS_TILES, _TRIANGLES, _TOTAL: invocations of each unit, side by side in
                        a workgroup: a power of two; 0 is 1. With FM_GROUP_LANES a unit has a
                        workgroup of its own, and may use shared memory and barriers */
+    uint32_t lanes_narrow; /* instead of lanes, where subgroups have fewer than 32; 0: lanes */
+    bool narrow_only;      /* left out where subgroups have 32 lanes or more (!FM_NARROW) */
 } fm_pass;
 
 /* Passes first..last (by name) run again and again: `count` times (constant + per k + per n + the
