@@ -147,8 +147,8 @@ ivec2 fm_snap(vec4 c, float r)
     return ivec2(floor(vec2(x, y) + 0.5));
 }
 
-// z / w of the three corners, clamped.
-void fm_snap_part(inout fm_setup t, out vec3 z, uint part)
+// Snaps the corners: t.x, t.y, t.box, and z / w of each, clamped. False: the box has no pixel.
+bool fm_snap_part(out fm_setup t, out vec3 z, uint part)
 {
     vec4 c[3];
     c[0] = fm_fan[0];
@@ -167,12 +167,16 @@ void fm_snap_part(inout fm_setup t, out vec3 z, uint part)
         t.y[i] = p.y;
         z[i] = clamp(depth, 0.0, 1.0);
     }
+    ivec2 low = ivec2(min(min(t.x[0], t.x[1]), t.x[2]), min(min(t.y[0], t.y[1]), t.y[2]));
+    ivec2 high = ivec2(max(max(t.x[0], t.x[1]), t.x[2]), max(max(t.y[0], t.y[1]), t.y[2]));
+    t.box.xy = max((low + 127) >> 8, ivec2(0)); // the first centre at or right of the corner
+    t.box.zw = min((high - 128) >> 8, ivec2(FM_WIDTH, FM_HEIGHT) - 1);
+    return all(lessThanEqual(t.box.xy, t.box.zw));
 }
 
-bool fm_set_up(out fm_setup t, uint part)
+// The rest, after fm_snap_part. False: no area.
+bool fm_set_up_snapped(inout fm_setup t, vec3 z)
 {
-    vec3 z;
-    fm_snap_part(t, z, part);
     uvec2 area = fm_wide_sum(fm_wide_product(t.x[1] - t.x[0], t.y[2] - t.y[0]),
                              fm_wide_negative(fm_wide_product(t.x[2] - t.x[0], t.y[1] - t.y[0])));
     bool is_turned = int(area.y) < 0;
@@ -193,17 +197,20 @@ bool fm_set_up(out fm_setup t, uint part)
     t.dz_dy = dy;
     t.z_least = min(min(z[0], z[1]), z[2]);
     t.z_most = max(max(z[0], z[1]), z[2]);
-    ivec2 low = ivec2(min(min(t.x[0], t.x[1]), t.x[2]), min(min(t.y[0], t.y[1]), t.y[2]));
-    ivec2 high = ivec2(max(max(t.x[0], t.x[1]), t.x[2]), max(max(t.y[0], t.y[1]), t.y[2]));
-    t.box.xy = max((low + 127) >> 8, ivec2(0)); // the first centre at or right of the corner
-    t.box.zw = min((high - 128) >> 8, ivec2(FM_WIDTH, FM_HEIGHT) - 1);
-    return area != uvec2(0u) && all(lessThanEqual(t.box.xy, t.box.zw));
+    return area != uvec2(0u);
+}
+
+bool fm_set_up(out fm_setup t, uint part)
+{
+    vec3 z;
+    bool has_pixels = fm_snap_part(t, z, part);
+    return fm_set_up_snapped(t, z) && has_pixels;
 }
 
 // ---- pixels ----
 
-// floor(-(a x + b y) / 256) by the top-left rule, held within 2^30: within a block of 64 px an edge
-// moves by less than 2^30, so the sign is right.
+// floor(-(a x + b y) / 256) by the top-left rule, held within 2^30. a and b are below 2^24 (the guard band is 65 536 px
+// wide), so for x and y of together 64 px an edge moves by less than 2^30: the sign is right.
 int fm_edge_at(int a, int b, int x, int y)
 {
     uvec2 s = fm_wide_sum(fm_wide_product(a, x), fm_wide_product(b, y));
