@@ -206,10 +206,12 @@ static void the_k_nearest_always_pass(void **state)
     scene_kit kit;
     drawn_scene drawn;
     outcomes seen = { .measured = 0 };
+    uint32_t scenes = 0;
     kit_open(&kit, device_of(state));
     for (uint32_t number = 0; number < SCENES; number++) {
         if (!is_in_slice(number))
             continue;
+        scenes++;
         open_scene(&drawn, &kit, number);
         measure_all(&seen, &drawn);
         kit_scene_close(&drawn.scene);
@@ -219,7 +221,8 @@ static void the_k_nearest_always_pass(void **state)
                   seen.measured, seen.failed, seen.unsupported, (unsigned long long)seen.arrived,
                   (unsigned long long)seen.generated);
     assert_int_equal(seen.failed, 0);
-    assert_true(seen.arrived < seen.generated);
+    if (scenes >= SCENES / 10) /* a few may have nothing to leave out */
+        assert_true(seen.arrived < seen.generated);
 }
 
 /* ---- broken maps ---- */
