@@ -138,7 +138,7 @@ static void soups_are_rasterised_exactly(void **state)
     kit_close(&kit);
 }
 
-/* 4 bytes a pair, 4 a triangle, 264 a tile, and 40: whatever k is. */
+/* 4 bytes a pair, 4 a triangle, 268 a tile, and 48: whatever k is. */
 static void memory_does_not_depend_on_k(void **state)
 {
     static const char *const ks[] = { "k=1", "k=4096" };
@@ -150,9 +150,9 @@ static void memory_does_not_depend_on_k(void **state)
     for (size_t i = 0; i < 2; i++) {
         fm_measurement m;
         if (kit_measure_times(&m, &scene, &(kit_way){ "tile-k", FM_FEED_TRIANGLES, ks[i] })) {
-            const uint64_t pairs = (m.bytes_allocated - 40 - 264 * tiles) / 4 - 2;
+            const uint64_t pairs = (m.bytes_allocated - 48 - 268 * tiles) / 4 - 2;
             assert_int_equal(m.bytes_allocated, m.bytes_predicted);
-            assert_int_equal(m.bytes_allocated, 4 * pairs + 4 * 2 + 264 * tiles + 40);
+            assert_int_equal(m.bytes_allocated, 4 * pairs + 4 * 2 + 268 * tiles + 48);
             assert_true(pairs >= tiles && pairs <= 2 * blocks); /* the diagonal's twice */
         }
         measurement_free(&m);
@@ -212,13 +212,47 @@ static void host_and_device_nearly_agree_on_a_mesh(void **state)
     kit_close(&kit);
 }
 
-/* No triangle, one that covers nothing, and one over more tiles than a tile pass's group. */
+/* As far as the guard band reaches, so that edges are as steep by pixel as they get. */
+static void steep_edges_are_exact(void **state)
+{
+    static const struct {
+        uint32_t width_px, height_px;
+        float corners[3][2]; /* px */
+    } steep[] = {
+        { 64, 16, { { -32700, 32600 }, { 32500, -32600 }, { 32700, 32700 } } },
+        { 16, 128, { { -32700, 60 }, { 32700, -32600 }, { 32700, 60 } } },
+        { 64, 64, { { -32700, 32700 }, { 32700, -32650 }, { 32700, 32700 } } },
+    };
+    scene_kit kit;
+    kit_open(&kit, device_of(state));
+    for (size_t i = 0; i < sizeof steep / sizeof steep[0]; i++) {
+        fm_scene *made = kit_quads_create(steep[i].width_px, steep[i].height_px, 1);
+        kit_scene scene;
+        made->triangles = 1;
+        made->index_count = 3;
+        for (int j = 0; j < 3; j++) {
+            float *position = made->vertices[j].position;
+            position[0] = 2 * steep[i].corners[j][0] / (float)steep[i].width_px - 1;
+            position[1] = 2 * steep[i].corners[j][1] / (float)steep[i].height_px - 1;
+            position[2] = 0.5f;
+        }
+        kit_scene_take(&scene, &kit, made);
+        for (size_t j = 0; j < RASTERISER_COUNT; j++)
+            expect_exact(&scene, &(kit_way){ rasterisers[j], FM_FEED_TRIANGLES, "k=2" }, i);
+        kit_scene_close(&scene);
+    }
+    kit_close(&kit);
+}
+
+/* No triangle, one that covers nothing, one over more tiles than a tile pass's group, and more
+ * tiles than a dispatch has in a row. */
 static void few_triangles_are_right(void **state)
 {
     static const char *const scenes[] = {
         "n=0 width_px=20 height_px=20",
         "n=1 width_px=1 height_px=1 pixel_density=1 tessellation=1",
         "n=2 width_px=203 height_px=101 pixel_density=1 tessellation=1",
+        "n=1 width_px=2049 height_px=1100 pixel_density=0.99 tessellation=1",
     };
     scene_kit kit;
     kit_open(&kit, device_of(state));
@@ -239,6 +273,7 @@ int main(void)
         ON_VULKAN_AND_OSMESA(memory_does_not_depend_on_k),
         ON_VULKAN_AND_OSMESA(host_and_device_agree_on_layers),
         ON_VULKAN_AND_OSMESA(host_and_device_nearly_agree_on_a_mesh),
+        ON_VULKAN_AND_OSMESA(steep_edges_are_exact),
         ON_VULKAN_AND_OSMESA(few_triangles_are_right),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -19,9 +19,11 @@ const fm_method_desc fm_method = {
           .help = "of depth in a tile" },
     },
     .resources = {
-        { .name = "groups", .extent = { .constant = 7 } }, /* words: tile-k/layout.glsl */
+        { .name = "groups", .extent = { .constant = 5 } }, /* words: tile-k/layout.glsl */
         { .name = "fill_groups", .extent = { .constant = 3 } }, /* x y z of a dispatch */
-        { .name = "large", .extent = { .per_triangle = 1 } },
+        { .name = "store_groups", .extent = { .constant = 4 } }, /* ... and a count */
+        { .name = "listed", .extent = { .per_tile = 1 } },
+        { .name = "notes", .extent = { .per_triangle = 1 } },
         { .name = "bins", .extent = { .per_tile = 66 } }, /* BLOCKS BIN_WORDS */
         { .name = "pairs", .sizing = FM_SIZE_AFTER_TOTAL,
           .extent = { .per_total = 1, .total = "pairs" } },
@@ -30,19 +32,19 @@ const fm_method_desc fm_method = {
     .totals = { { .name = "pairs", .resource = "groups", .index = 4, .pass = "reference" } },
     .passes = {
         { .name = "clear", .kind = FM_PASS_CLEAR, .writes = { "bins", "groups" } },
-        { .name = "range-of-depths", .kind = FM_PASS_TILES, .shader = "tile-k/range.glsl",
-          .writes = { "groups" } },
+        { .name = "clear-list", .kind = FM_PASS_CLEAR, .writes = { "store_groups" }, .narrow_only = true },
         { .name = "count", .kind = FM_PASS_TRIANGLES, .shader = "tile-k/count.glsl",
-          .writes = { "bins", "groups", "large" } },
+          .writes = { "bins", "groups", "notes", "listed" } },
         { .name = "count-large", .kind = FM_PASS_INDIRECT, .indirect = "groups",
-          .shader = "tile-k/count_large.glsl", .reads = { "groups", "large" },
+          .shader = "tile-k/count_large.glsl", .reads = { "groups", "notes", "listed" },
           .writes = { "bins" } },
-        { .name = "reference", .kind = FM_PASS_TILES, .lanes = 2, .shader = "tile-k/reference.glsl",
-          .writes = { "bins", "groups", "fill_groups" } },
+        { .name = "reference", .kind = FM_PASS_TILES, .lanes = FM_GROUP_LANES, .lanes_narrow = 1, .shader = "tile-k/reference.glsl",
+          .writes = { "bins", "groups", "fill_groups", "store_groups", "listed" } },
         { .name = "fill", .kind = FM_PASS_INDIRECT, .indirect = "fill_groups",
-          .shader = "tile-k/fill.glsl", .reads = { "groups", "fill_groups", "large" },
+          .shader = "tile-k/fill.glsl", .reads = { "groups", "fill_groups", "notes", "listed" },
           .writes = { "bins", "pairs" } },
-        { .name = "store", .kind = FM_PASS_TILES, .lanes = FM_GROUP_LANES,
-          .shader = "store.glsl", .reads = { "groups", "bins", "pairs" }, .writes = { "sink" } },
+        { .name = "store", .kind = FM_PASS_INDIRECT, .indirect = "store_groups",
+          .shader = "store.glsl", .reads = { "store_groups", "listed", "bins", "pairs" },
+          .writes = { "sink" } },
     },
 };

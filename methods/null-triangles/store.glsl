@@ -1,5 +1,5 @@
-// Every triangle of the block is set up and tested, every fragment's depth and number are consumed, none
-// is kept.
+// Every triangle of the block is tested, and set up if its box touches the subgroup's pixels; every fragment's
+// depth and number are consumed, none is kept.
 #define MAY_RESUME false
 #include "tile-k/scan.glsl"
 
@@ -23,8 +23,12 @@ void take(uvec2 key)
         sink[0] = key.x;
 }
 
-void store(uint tile)
+void store(uint i)
 {
+    uint tile;
+    begin_counting();
+    if (!tile_of(i, tile))
+        return;
     own_pixel = uvec2(tile % TILES_X, tile / TILES_X) * 8u + pixel_in_tile(this_place());
     uint bin = own_bin(tile);
     scan(bin, bins[bin * BIN_WORDS + BUCKETS], own_pixel);

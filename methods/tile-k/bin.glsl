@@ -1,43 +1,83 @@
-// A triangle's blocks, each by an exact test of its edges. Who includes this defines
+// A triangle's blocks, each by an exact test of its edges. Loops test at their end: software runs the body
+// of one that tests first once more, for nobody. Who includes this defines
 //   void put(uint bin, uint bucket, uint pair)   what happens to a pair
 #include "common/rasterise.glsl"
 #include "tile-k/layout.glsl"
 
 void put(uint bin, uint bucket, uint pair);
 
-// Blocks first, first + stride, ... of its box, which has `across` columns and `count` in all.
-void bin_part(fm_setup t, uint pair, uvec2 blocks, uvec2 first_and_stride)
+// The list of large triangles. As macros: not every pass has the buffers.
+#define large_count() min(groups[LARGE], LARGE_MAX)
+#if TAKES_NOTES
+#define large_at(i) listed[i]
+#else
+#define large_at(i) notes[i]
+#endif
+
+// Its blocks from `first` on, `size` columns and rows within REACH_PX: so far an edge is held by 32 bits, and the
+// wide sum is needed but once. Which of 2 x 2 are covered, if there are no more.
+uint bin_blocks(fm_setup t, uint pair, uint bucket, ivec2 first, ivec2 size)
 {
-    ivec2 corner = t.box.xy >> BLOCK_SHIFT;
-    uint bucket = bucket_of(t.z_least);
-    FM_LOOP for (uint i = first_and_stride.x; i < blocks.y; i += first_and_stride.y) {
-        ivec2 block = corner + ivec2(i % blocks.x, i / blocks.x);
-        if (fm_may_cover(t, fm_edges_at(t, block << BLOCK_SHIFT), BLOCK_PX))
-            put(bin_of(block), bucket, pair);
-    }
+    ivec3 reach = max(t.a, ivec3(0)) * (BLOCK_PX.x - 1) + max(t.b, ivec3(0)) * (BLOCK_PX.y - 1);
+    ivec3 row = fm_edges_at(t, first << BLOCK_SHIFT) + reach, most = row; // of each edge in the block
+    ivec2 at = ivec2(0);
+    uint covered = 0u;
+    int i = size.x * size.y;
+    FM_LOOP do {
+        if ((most.x | most.y | most.z) >= 0) {
+            put(bin_of(first + at), bucket, pair);
+            covered |= 1u << (at.x + 2 * at.y & 31);
+        }
+        bool is_next_row = ++at.x == size.x;
+        row = is_next_row ? row + t.b * BLOCK_PX.y : row;
+        most = is_next_row ? row : most + t.a * BLOCK_PX.x;
+        at = is_next_row ? ivec2(0, at.y + 1) : at;
+    } while (--i > 0);
+    return covered;
 }
 
-// Columns and blocks of its box.
-uvec2 blocks_of(fm_setup t)
+// Its box in stretches of `each` blocks, of which this invocation takes first, first + stride, ...
+// Returns bin_blocks() of a box that is one stretch.
+uint bin_part(fm_setup t, uint pair, ivec2 size, ivec2 each, ivec2 first_and_stride)
 {
-    ivec2 size = (t.box.zw >> BLOCK_SHIFT) - (t.box.xy >> BLOCK_SHIFT) + 1;
-    return uvec2(size.x, size.x * size.y);
+    ivec2 corner = t.box.xy >> BLOCK_SHIFT, stretches = (size + each - 1) / each;
+    uint bucket = bucket_of(t.z_least), covered = 0u;
+    int i = first_and_stride.x, count = stretches.x * stretches.y;
+    FM_LOOP do {
+        ivec2 at = ivec2(i % stretches.x, i / stretches.x) * each;
+        if (i < count)
+            covered = bin_blocks(t, pair, bucket, corner + at, min(size - at, each));
+        i += first_and_stride.y;
+    } while (i < count);
+    return covered;
 }
 
-// The parts that are large, or those that are not; whether there were others.
-bool bin_triangle(uint triangle, bool wants_large, uvec2 first_and_stride)
+// Columns and rows of its box.
+ivec2 size_of(fm_setup t)
+{
+    return (t.box.zw >> BLOCK_SHIFT) - (t.box.xy >> BLOCK_SHIFT) + 1;
+}
+
+bool is_small(ivec2 size)
+{
+    return size.x * size.y <= SMALL_BLOCKS && size.x * BLOCK_PX.x + size.y * BLOCK_PX.y <= REACH_PX;
+}
+
+// The parts that are large, by a workgroup, or those that are not, by this invocation; whether there
+// were others.
+bool bin_triangle(uint triangle, bool wants_large)
 {
     fm_setup t;
     bool has_others = false;
-    uint parts = fm_parts(triangle);
-    FM_LOOP for (uint part = 0u; part < parts; ++part) {
-        if (!fm_set_up(t, part))
-            continue;
-        uvec2 blocks = blocks_of(t);
-        if ((blocks.y > SMALL_BLOCKS) == wants_large)
-            bin_part(t, triangle | part << PART_SHIFT, blocks, first_and_stride);
-        else
-            has_others = true;
-    }
+    uint parts = fm_parts(triangle), part = 0u;
+    FM_LOOP do {
+        bool has_pixels = fm_set_up(t, part) && part < parts;
+        ivec2 size = size_of(t);
+        bool is_wanted = is_small(size) != wants_large;
+        if (has_pixels && is_wanted)
+            bin_part(t, triangle | part << PART_SHIFT, size, wants_large ? LARGE_STRETCH : size,
+                     wants_large ? ivec2(fm_lane, FM_GROUP_LANES) : ivec2(0, 1));
+        has_others = has_others || (has_pixels && !is_wanted);
+    } while (++part < parts);
     return has_others;
 }

@@ -6,19 +6,48 @@ void put(uint bin, uint bucket, uint pair)
     atomicAdd(bins[bin * BIN_WORDS + bucket], 1u); // a sum: the order does not matter
 }
 
-// The list's dispatch grows with it: x up to 256 groups, then y.
-void put_off(uint triangle)
+// Whether there was room. The list's dispatch grows with it: x up to 256 groups, then y.
+bool put_off(uint triangle)
 {
     uint at = atomicAdd(groups[LARGE], 1u); // unique; the list's order does not matter
-    large[at] = triangle;
+    if (at >= LARGE_MAX)
+        return false;
+    large_at(at) = triangle;
     atomicMax(groups[0], min(at + 1u, 256u));
     atomicMax(groups[1], at / 256u + 1u);
     atomicMax(groups[2], 1u);
+    return true;
+}
+
+#if TAKES_NOTES
+
+uint note_of(fm_setup t, ivec2 size, uint covered)
+{
+    uvec2 block = uvec2(t.box.xy >> BLOCK_SHIFT);
+    bool is_tiny = all(lessThanEqual(size, ivec2(2)));
+    return is_tiny ? (block.x + block.y * TILES_X) << NOTE_BLOCK | bucket_of(t.z_least) << NOTE_BUCKET | covered
+                   : NOTE_AGAIN;
 }
 
 void count(uint triangle)
 {
-    read_range();
-    if (bin_triangle(triangle, false, uvec2(0u, 1u)))
+    fm_setup t;
+    uint note = 0u; // nothing to do
+    fm_parts(triangle);
+    bool has_pixels = fm_set_up(t, 0u);
+    ivec2 size = size_of(t);
+    ivec2 each = is_small(size) ? size : LARGE_STRETCH;
+    if (has_pixels && (is_small(size) || !put_off(triangle)))
+        note = note_of(t, size, bin_part(t, triangle, size, each, ivec2(0, 1)));
+    notes[triangle] = note;
+}
+
+#else
+
+void count(uint triangle)
+{
+    if (bin_triangle(triangle, false))
         put_off(triangle);
 }
+
+#endif

@@ -9,7 +9,6 @@ void put(uint bin, uint bucket, uint pair)
 void count_large(uint i)
 {
     uint at = i / uint(FM_GROUP_LANES);
-    read_range();
-    if (at < groups[LARGE])
-        bin_triangle(large[at], true, uvec2(fm_lane, FM_GROUP_LANES));
+    if (at < large_count())
+        bin_triangle(large_at(at), true);
 }

@@ -1,5 +1,6 @@
 // The invocations that work together: a subgroup of 8 to 32 where the device has ballots, else each
 // alone. LANES of them hold LANES pixels side by side and set up LANES triangles at a time.
+#ifndef LANES // once
 #ifndef CHUNK // is an option of the method
 #define CHUNK 0
 #define CHUNK_AUTO 0
@@ -20,3 +21,4 @@
 const uint LANES_W = LANES >= 32 ? 8u : LANES >= 8 ? 4u : 1u;
 const uint LANES_H = LANES >= 16 ? 4u : LANES >= 8 ? 2u : 1u;
 #define IS_WIDE (CHUNK == CHUNK_WIDE || (CHUNK == CHUNK_AUTO && LANES == 32))
+#endif

@@ -6,6 +6,7 @@
 const uint BUCKETS = 32u;
 const uint BIN_WORDS = BUCKETS + 1u;
 const uint TILES_X = (uint(FM_WIDTH) + 7u) / 8u;
+const uint TILES = TILES_X * ((uint(FM_HEIGHT) + 7u) / 8u);
 
 // A wide subgroup covers 8 x 4 pixels: small triangles lie in one half of a tile, and the other half
 // need not look at them. Elsewhere more pairs cost more than they save. method.c allocates for two.
@@ -28,8 +29,13 @@ uint bin_of(ivec2 block)
 // groups[]: x y z of the large triangles' dispatch, and more words that begin as 0.
 const uint LARGE = 3u; // how many there are
 const uint ALLOCATED = 4u; // pairs
-const uint LEAST = 5u; // of a sample of depths: the bits, inverted
-const uint MOST = 6u;
+
+// store_groups[]: x y z of the dispatch over tiles, and how many tiles listed[] has. Narrow subgroups are
+// in practice those of software, which runs all of a shader for a tile that has nothing: there listed[] has
+// the others.
+const bool LISTS_TILES = FM_NARROW != 0;
+const uint LISTED = 3u;
+const uint GROUPS_X = 32768u; // of a dispatch, then y
 
 // Groups that take the small triangles in `fill`; large ones have groups behind them.
 const uint SMALL_GROUPS = (uint(FM_TRIANGLES) + uint(FM_GROUP_LANES) - 1u) / uint(FM_GROUP_LANES);
@@ -38,26 +44,32 @@ const uint SMALL_GROUPS = (uint(FM_TRIANGLES) + uint(FM_GROUP_LANES) - 1u) / uin
 const uint PART_SHIFT = 29u;
 const uint TRIANGLE_MASK = (1u << PART_SHIFT) - 1u;
 
-// Triangles whose box has more blocks go to a list: a workgroup for each.
-const uint SMALL_BLOCKS = 16u * BLOCKS;
+// Triangles whose box has more blocks, or whose width and height reach farther, go to a list: a workgroup for
+// each, an invocation for a stretch.
+const int REACH_PX = 64; // so far fm_edges_at() can be stepped (common/rasterise.glsl)
+const int SMALL_BLOCKS = 16 * int(BLOCKS);
+const ivec2 LARGE_STRETCH = ivec2(4);
 
-// Which bucket a depth falls into: never falls as z rises, which is all that exactness needs. The
-// range of depths is a sample's (range.glsl), so it may be any; `precise`, as passes must agree.
-float nearest_depth, buckets_per_depth;
+// Where to set a triangle up costs more than to remember, `count` leaves `fill` a note of each in notes[], and
+// the list is in listed[], as long as that is: who finds no room there is not listed, and slower. Elsewhere
+// notes[] is the list.
+#define TAKES_NOTES (LANES == 32 && !FM_CLIPS && FM_WIDTH <= 8192 && FM_HEIGHT <= 8192)
+#if TAKES_NOTES
+const uint LARGE_MAX = TILES;
+#else
+const uint LARGE_MAX = uint(FM_TRIANGLES);
+#endif
+// A note: the blocks of a box of up to 2 x 2 that are covered, a bit each, the bucket, and the first block.
+const uint NOTE_AGAIN = 1u << 31; // set it up again (so blocks have 22 bits)
+const uint NOTE_BUCKET = 4u, NOTE_BLOCK = 9u; // shifts
 
-void read_range()
+// Which bucket a depth falls into: never falls as z rises, which is all that exactness needs. So the scene's
+// range of depths may be any that pays; `precise`, as passes must agree.
+uint bucket_of(float z)
 {
-    bool is_known = groups[LEAST] != 0u;
-    nearest_depth = is_known ? uintBitsToFloat(~groups[LEAST]) : 0.0;
-    float farthest = is_known ? uintBitsToFloat(groups[MOST]) : 1.0;
-    precise float width = max(farthest - nearest_depth, 1e-30);
+    precise float width = max(FM_FARTHEST - FM_NEAREST, 1e-30);
     precise float scale = float(USED_BUCKETS) * fm_reciprocal(width);
-    buckets_per_depth = scale;
-}
-
-uint bucket_of(float z) // after read_range()
-{
-    precise float at = (z - nearest_depth) * buckets_per_depth;
+    precise float at = (z - FM_NEAREST) * scale;
     return uint(clamp(at, 0.0, float(USED_BUCKETS) - 1.0));
 }
 

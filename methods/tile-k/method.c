@@ -17,16 +17,18 @@ const fm_method_desc fm_method = {
         { .name = "structure", .values = { "auto", "registers", "sorted-array" },
           .help = "of the window of fragments that are not yet final" },
         { .name = "window", .values = { "0", "8", "4", "16", "32", "64", "128", "256" },
-          .help = "fragments that it holds at most; 0: 32 on wide subgroups, else 8" },
+          .help = "fragments that it holds at most; 0: 32 on wide subgroups, 8 on narrow, 16 alone" },
         { .name = "used-buckets", .values = { "32", "1", "4", "8", "16" },
           .help = "of depth in a tile" },
         { .name = "chunk", .values = { "auto", "wide", "narrow", "alone" },
           .help = "depths by pixel, by triangle, without ballots; auto: by the subgroup" },
     },
     .resources = {
-        { .name = "groups", .extent = { .constant = 7 } }, /* words: tile-k/layout.glsl */
+        { .name = "groups", .extent = { .constant = 5 } }, /* words: tile-k/layout.glsl */
         { .name = "fill_groups", .extent = { .constant = 3 } }, /* x y z of a dispatch */
-        { .name = "large", .extent = { .per_triangle = 1 } },
+        { .name = "store_groups", .extent = { .constant = 4 } }, /* ... and a count */
+        { .name = "listed", .extent = { .per_tile = 1 } },
+        { .name = "notes", .extent = { .per_triangle = 1 } },
         { .name = "bins", .extent = { .per_tile = 66 } }, /* BLOCKS BIN_WORDS */
         { .name = "pairs", .sizing = FM_SIZE_AFTER_TOTAL,
           .extent = { .per_total = 1, .total = "pairs" } },
@@ -34,19 +36,21 @@ const fm_method_desc fm_method = {
     .totals = { { .name = "pairs", .resource = "groups", .index = 4, .pass = "reference" } },
     .passes = {
         { .name = "clear", .kind = FM_PASS_CLEAR, .writes = { "bins", "groups" } },
-        { .name = "range-of-depths", .kind = FM_PASS_TILES, .shader = "range.glsl",
-          .writes = { "groups" } },
+        { .name = "clear-list", .kind = FM_PASS_CLEAR, .writes = { "store_groups" }, .narrow_only = true },
         { .name = "count", .kind = FM_PASS_TRIANGLES, .shader = "count.glsl",
-          .writes = { "bins", "groups", "large" } },
+          .writes = { "bins", "groups", "notes", "listed" } },
         { .name = "count-large", .kind = FM_PASS_INDIRECT, .indirect = "groups",
-          .shader = "count_large.glsl", .reads = { "groups", "large" },
+          .shader = "count_large.glsl", .reads = { "groups", "notes", "listed" },
           .writes = { "bins" } },
-        { .name = "reference", .kind = FM_PASS_TILES, .lanes = 2, .shader = "reference.glsl",
-          .writes = { "bins", "groups", "fill_groups" } },
+        { .name = "reference", .kind = FM_PASS_TILES, .lanes = FM_GROUP_LANES, .lanes_narrow = 1, .shader = "reference.glsl",
+          .writes = { "bins", "groups", "fill_groups", "store_groups", "listed" } },
         { .name = "fill", .kind = FM_PASS_INDIRECT, .indirect = "fill_groups",
-          .shader = "fill.glsl", .reads = { "groups", "fill_groups", "large" },
+          .shader = "fill.glsl", .reads = { "groups", "fill_groups", "notes", "listed" },
           .writes = { "bins", "pairs" } },
-        { .name = "store", .kind = FM_PASS_TILES, .lanes = FM_GROUP_LANES,
-          .shader = "store.glsl", .reads = { "groups", "bins", "pairs" }, .emits = true },
+        { .name = "background", .kind = FM_PASS_PIXELS, .shader = "background.glsl",
+          .emits = true, .narrow_only = true },
+        { .name = "store", .kind = FM_PASS_INDIRECT, .indirect = "store_groups",
+          .shader = "store.glsl", .reads = { "store_groups", "listed", "bins", "pairs" },
+          .emits = true },
     },
 };

@@ -3,11 +3,14 @@
 // window of the nearest fragments that are not final, so that k is but a count. What falls out of a full
 // window is not lost: a further round over the block's triangles takes up behind the last one composited.
 #define NO_KEY uvec2(0xFFFFFFFFu)
+#include "tile-k/lanes.glsl"
 // Measured (README): where registers hold the window, places cost; elsewhere rounds do.
 #if WINDOW != 0
 #define ROOM WINDOW
-#elif FM_HAS_SUBGROUP_BALLOT && FM_SUBGROUP_SIZE == 32
+#elif LANES == 32
 #define ROOM 32
+#elif LANES == 1
+#define ROOM 16
 #else
 #define ROOM 8
 #endif
@@ -25,8 +28,8 @@ bool comes_before(uvec2 a, uvec2 b) // by depth, then drawing order
 
 #include "tile-k/scan.glsl"
 
-// Measured (README): narrow subgroups run every branch, wide ones jump.
-#if STRUCTURE == STRUCTURE_REGISTERS || (STRUCTURE == STRUCTURE_AUTO && LANES != 32)
+// Measured (README): narrow subgroups run every branch; wide ones jump, which pays from 9 places on.
+#if STRUCTURE == STRUCTURE_REGISTERS || (STRUCTURE == STRUCTURE_AUTO && (LANES != 32 || CAPACITY <= 8))
 #include "tile-k/window_registers.glsl"
 #else
 #include "tile-k/window_sorted_array.glsl"
@@ -65,12 +68,18 @@ void emit_first()
     window_remove_first();
 }
 
+bool first_is_final()
+{
+    return emitted < uint(K) && is_final(window_first());
+}
+
 void advance(uint bucket)
 {
     now = bucket;
-    FM_LOOP while (votes(emitted < uint(K) && is_final(window_first())) != 0u && may_go_on())
-        if (emitted < uint(K) && is_final(window_first()))
+    FM_LOOP do // the test is last: see bin.glsl
+        if (first_is_final())
             emit_first();
+    while (votes(first_is_final()) != 0u && may_go_on());
 }
 
 void take(uvec2 key)
@@ -82,10 +91,13 @@ void take(uvec2 key)
     }
 }
 
-void store(uint tile)
+void store(uint i)
 {
+    uint tile;
+    begin_counting();
+    bool is_there = tile_of(i, tile);
     own_pixel = uvec2(tile % TILES_X, tile / TILES_X) * 8u + pixel_in_tile(this_place());
-    is_inside = own_pixel.x < uint(FM_WIDTH) && own_pixel.y < uint(FM_HEIGHT);
+    is_inside = is_there && own_pixel.x < uint(FM_WIDTH) && own_pixel.y < uint(FM_HEIGHT);
     emitted = 0u;
     resumes = uvec2(0u);
     if (is_inside)

@@ -1,7 +1,7 @@
 // The window as a ring of sorted keys: fragments arrive nearly in order, so an insertion from the end
 // moves few of them.
-const uint RING = CAPACITY <= 4 ? 4u : CAPACITY <= 8 ? 8u : CAPACITY <= 16 ? 16u : CAPACITY <= 32 ? 32u
-    : CAPACITY <= 64 ? 64u : CAPACITY <= 128 ? 128u : 256u;
+// Not below 32, or a compiler makes registers and selections of it (measured: README).
+const uint RING = CAPACITY <= 32 ? 32u : CAPACITY <= 64 ? 64u : CAPACITY <= 128 ? 128u : 256u;
 uvec2 ring[RING];
 uint ring_first, ring_count;
 
