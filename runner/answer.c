@@ -71,6 +71,11 @@ static void add_culled(json_t *metrics, const fm_answer_desc *of)
     const double kept = (double)truth_kept(of->truth, measure_places(of->method, of->settings->k));
     if (culling_is_applied(of->method))
         set_count(metrics, "cull_words", of->settings->cull_words);
+    if ((of->stage->feed & FM_FEEDS_FRAGMENTS) == 0) /* no fragments arrive, so none are counted */
+        return;
+    set_count(metrics, "fragments_arrived", m->arrived);
+    set_count(metrics, "fragments_culled", m->culled);
+    set_count(metrics, "locks_taken", m->locked);
     if (of->method->keeps != FM_KEEPS_K_NEAREST)
         return;
     if (all > kept)
@@ -82,9 +87,6 @@ static void add_culled(json_t *metrics, const fm_answer_desc *of)
 static void add_checked(json_t *metrics, const fm_measurement *m, const fm_truth *truth)
 {
     set_count(metrics, "fragments_stored", m->check.captured);
-    set_count(metrics, "fragments_arrived", m->arrived);
-    set_count(metrics, "fragments_culled", m->culled);
-    set_count(metrics, "locks_taken", m->locked);
     set_count(metrics, "missing", m->check.missing);
     set_count(metrics, "extra", m->check.extra);
     set_count(metrics, "misordered", m->check.misordered);

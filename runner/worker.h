@@ -23,9 +23,9 @@
  *     "samples": [ { "frame": 0, "metric": "store_ms", "value": 1.25, "unit": "ms" }, ... ] }
  * Metrics of a case: n, bytes_allocated, bytes_predicted, bytes_used, fragments_generated,
  *   fragments_stored, fragments_lost, frames_redone, frames_lossy, fragments_culled, locks_taken;
- *   fragments_arrived (at pass `store`; the others an occupancy map culled), cull_words; of methods
- *   that keep the k nearest discarded_share (of the fragments beyond those, what was not stored)
- *   and taken_per_kept;
+ *   fragments_arrived (at pass `store`; the others an occupancy map culled; these counts not in the
+ *   feed triangles, where nothing arrives), cull_words; of methods that keep the k nearest
+ *   discarded_share (of the fragments beyond those, what was not stored) and taken_per_kept;
  *   redone_ms, the passes of all frames thrown away because something had to grow: what a growing
  *   method costs beside frame_ms; scene_passes, of one frame; k_chosen, where the method chooses k;
  * and with "check": missing, extra, misordered, depth_ulp_max, wrong_pixels, nonempty_pixels,
