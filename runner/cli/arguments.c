@@ -23,7 +23,7 @@ static const struct argp_option selection_options[] = {
     { "scene", KEY_SCENE, "S,...", 0, "scenes, by name or file; layers", 0 },
     { "device", KEY_DEVICE, "D,...", 0, "devices (`fragmark list devices`); vulkan", 0 },
     { "feed", KEY_FEED, "F,...", 0,
-      "raster, compute-layer, compute-pixel, compute-adjacent; raster", 0 },
+      "raster, compute-layer, compute-pixel, compute-adjacent, triangles, frames; raster", 0 },
     { "axis", 'a', "AXIS=VALUES", 0,
       "values of one axis or of a method's option: k=4,8,16, k=4:64:*2, n=16:64:+16; repeatable",
       0 },
