@@ -209,8 +209,8 @@ bool fm_set_up(out fm_setup t, uint part)
 
 // ---- pixels ----
 
-// floor(-(a x + b y) / 256) by the top-left rule, held within 2^30. a and b are below 2^24 (the guard band is 65 536 px
-// wide), so for x and y of together 64 px an edge moves by less than 2^30: the sign is right.
+// floor(-(a x + b y) / 256) by the top-left rule, held within 2^30. a and b are below 2^24 (the guard band is
+// 65 536 px wide), so for x and y of together 64 px an edge moves by less than 2^30: the sign is right.
 int fm_edge_at(int a, int b, int x, int y)
 {
     uvec2 s = fm_wide_sum(fm_wide_product(a, x), fm_wide_product(b, y));

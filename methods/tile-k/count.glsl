@@ -1,10 +1,5 @@
 // Pairs of each bin; large triangles into their list.
-#include "tile-k/bin.glsl"
-
-void put(uint bin, uint bucket, uint pair)
-{
-    atomicAdd(bins[bin * BIN_WORDS + bucket], 1u); // a sum: the order does not matter
-}
+#include "tile-k/count_pair.glsl"
 
 // Whether there was room. The list's dispatch grows with it: x up to 256 groups, then y.
 bool put_off(uint triangle)

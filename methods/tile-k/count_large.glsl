@@ -1,10 +1,5 @@
 // A workgroup for each large triangle.
-#include "tile-k/bin.glsl"
-
-void put(uint bin, uint bucket, uint pair)
-{
-    atomicAdd(bins[bin * BIN_WORDS + bucket], 1u); // a sum: the order does not matter
-}
+#include "tile-k/count_pair.glsl"
 
 void count_large(uint i)
 {

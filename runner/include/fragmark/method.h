@@ -46,9 +46,10 @@
  *   loops         fm_iteration is the number of the running iteration, from 0. FM_LOOP before a
  *                 for or while keeps it from being unrolled: pipelines compile in less time
  *   order         fm_fence() between two accesses that others must see in this order
- *   devices       FM_SUBGROUP_SIZE, FM_NARROW if that is below 32; FM_HAS_FEATURE is 1 or 0 for
- * each of features_optional; FM_LOOP_LIMIT iterations of all loops of an invocation, 0: any colour
- * is RGBA8, red in the low byte, premultiplied by alpha; depth is in [0,1]. */
+ *   devices       FM_SUBGROUP_SIZE, and FM_NARROW, 1 where that is below 32; FM_HAS_FEATURE, 1 or 0
+ *                 for each of features_optional; FM_LOOP_LIMIT iterations of all loops of an
+ *                 invocation, 0: any
+ * colour is RGBA8, red in the low byte, premultiplied by alpha; depth is in [0,1]. */
 #ifndef FRAGMARK_METHOD_H
 #define FRAGMARK_METHOD_H
 

@@ -1,0 +1,7 @@
+// A pair adds to its bin.
+#include "tile-k/bin.glsl"
+
+void put(uint bin, uint bucket, uint pair)
+{
+    atomicAdd(bins[bin * BIN_WORDS + bucket], 1u); // a sum: the order does not matter
+}
