@@ -192,11 +192,18 @@ fm_status scene_file_value(char text[FM_PATH_MAX_BYTES], const fm_key *key, cons
     return fm_fail(err, FM_INVALID, "%s:%u: %s: not one value", file, value->line, key->name);
 }
 
+/* Of what describes a scene and of the keys. */
+static const char *nearest_name(const char *name)
+{
+    const char *nearest[] = { text_nearest(name, described, DESCRIBED_COUNT), key_nearest(name) };
+    if (nearest[0] == NULL || nearest[1] == NULL)
+        return nearest[nearest[0] == NULL];
+    return text_nearest(name, nearest, 2);
+}
+
 static fm_status unknown_key(const char *path, const fm_yaml *item, fm_error *err)
 {
-    const char *nearest = key_nearest(item->key);
-    if (nearest == NULL)
-        nearest = text_nearest(item->key, described, DESCRIBED_COUNT);
+    const char *nearest = nearest_name(item->key);
     return fm_fail(err, FM_INVALID, "%s:%u: no key '%.200s'%s%s%s", path, item->line, item->key,
                    nearest != NULL ? "; the nearest is '" : "", nearest != NULL ? nearest : "",
                    nearest != NULL ? "'" : "");
