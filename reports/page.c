@@ -78,13 +78,15 @@ void page_add_links(fm_text *page, const fm_name_list *papers)
 void page_add_guide(fm_text *page)
 {
     static const char *const sentences[] = {
-        "<b>frame_ms</b> is the sum of a method's GPU passes, the median of all samples of all "
-        "launches. A launch is a process of its own; launches of all methods take turns, so that a "
+        "<b>frame_ms</b> is the sum of a method's GPU passes (with timers=frame: one time for all, "
+        "and none of each), the median of all samples of all launches. A launch is a process of "
+        "its own; launches of all methods take turns, so that a "
         "drift of the machine meets all alike.",
         "<b>Intervals</b> hold the median with 95 % confidence (bootstrap over launches, then over "
         "the samples of each). Two methods whose intervals overlap are not told apart by this run.",
         "<b>The floor</b> is a method that consumes every fragment and stores none. <b>&times; "
-        "floor</b> is a method's store time over the floor's, measured in the same process: 1 is "
+        "floor</b> is a method's store time over the floor's (with timers=frame: frame time over "
+        "frame time), measured in the same process: 1 is "
         "as cheap as taking every fragment can be, and only hardware that rejects fragments before "
         "the shader (Z-buffer) comes below. It compares between machines where milliseconds "
         "cannot.",

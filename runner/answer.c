@@ -39,23 +39,31 @@ static bool is_standard_pass(const char *name)
     return false;
 }
 
-static void add_frame(json_t *samples, uint32_t frame, const fm_sample *sample,
-                      const fm_method_desc *method)
+static void add_passes(json_t *samples, uint32_t frame, const fm_sample *sample,
+                       const fm_method_desc *method)
 {
-    uint64_t sum = 0, map = 0;
+    uint64_t map = 0;
     char metric[96];
     for (size_t i = 0; i < FM_MAX_PASSES && method->passes[i].name != NULL; i++) {
         const char *name = method->passes[i].name;
         snprintf(metric, sizeof metric, "%s%s_ms", is_standard_pass(name) ? "" : "pass.", name);
         add_sample(samples, frame, metric, (double)sample->pass_ns[i] * 1e-6, "ms");
-        sum += sample->pass_ns[i];
         map += culling_is_map_pass(&method->passes[i]) ? sample->pass_ns[i] : 0;
     }
     if (culling_is_applied(method))
         add_sample(samples, frame, "culling_ms", (double)map * 1e-6, "ms");
-    add_sample(samples, frame, "frame_ms", (double)sum * 1e-6, "ms");
+}
+
+static void add_frame(json_t *samples, uint32_t frame, const fm_sample *sample,
+                      const fm_answer_desc *of)
+{
+    const bool has_passes = of->settings->timers == FM_TIMERS_PASSES;
+    if (has_passes)
+        add_passes(samples, frame, sample, of->method);
+    add_sample(samples, frame, "frame_ms", (double)sample->frame_ns * 1e-6, "ms");
     add_sample(samples, frame, "frame_wall_ms", (double)sample->wall_ns * 1e-6, "ms");
-    add_sample(samples, frame, "floor_store_ms", (double)sample->floor_store_ns * 1e-6, "ms");
+    if (has_passes)
+        add_sample(samples, frame, "floor_store_ms", (double)sample->floor_store_ns * 1e-6, "ms");
     add_sample(samples, frame, "floor_frame_ms", (double)sample->floor_frame_ns * 1e-6, "ms");
     add_sample(samples, frame, "canary_ns", (double)sample->canary_ns, "ns");
 }
@@ -124,7 +132,7 @@ static void add_metrics(json_t *result, const fm_answer_desc *of)
         add_culled(metrics, of);
     }
     for (uint32_t i = 0; i < m->sample_count; i++)
-        add_frame(samples, i, &m->samples[i], of->method);
+        add_frame(samples, i, &m->samples[i], of);
     snprintf(hash, sizeof hash, "%016" PRIx64, image_hash(m->image));
     json_object_set_new(result, "image_hash", json_string(hash));
     json_object_set_new(result, "metrics", metrics);

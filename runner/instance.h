@@ -13,7 +13,7 @@ typedef struct fm_instance_desc {
     fm_stage *stage;
     const fm_method_desc *method;
     fm_shader_folders folders;
-    const fm_settings *settings; /* k, lock, pool, full_screen */
+    const fm_settings *settings; /* k, lock, pool, full_screen, timers */
     const fm_choice *choices;
     size_t choice_count;
     uint64_t fragments, fragments_kept; /* F and F_k of the scene, for formulas */
@@ -29,6 +29,7 @@ typedef struct fm_band {
 
 typedef struct fm_frame_result {
     uint64_t pass_ns[FM_MAX_PASSES]; /* in the descriptor's order, all iterations together */
+    uint64_t span_ns;                /* timers=frame: of all passes, and 0 in pass_ns */
     uint64_t canary_ns;              /* an empty interval at the frame's start */
     uint64_t wall_ns;                /* host: with read-backs, allocation and what was done again */
     uint64_t lost;                   /* fragments */
@@ -37,10 +38,10 @@ typedef struct fm_frame_result {
                          ran in the frame; what an occupancy map culled is not among them */
     uint32_t scene_passes; /* over the scene in the last try */
     uint32_t redos;        /* frames done again because something had to grow */
-    uint64_t redone_ns;    /* of all passes of those frames; in no pass_ns */
+    uint64_t redone_ns;    /* of all passes of those frames; in no pass_ns, nor in span_ns */
 } fm_frame_result;
 
-/* Of all passes together. */
+/* Of all passes together: their sum, or the span. */
 uint64_t frame_passes_ns(const fm_frame_result *result);
 
 /* FM_UNSUPPORTED: the device lacks something, with the reason; FM_SHADER: with plugin and pass. */

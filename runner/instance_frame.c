@@ -9,10 +9,12 @@
 enum {
     CANARY_TIMER = FM_MAX_TIMERS - 1,
     COMBINE_TIMER = FM_MAX_TIMERS - 2,
+    SPAN_TIMER = FM_MAX_TIMERS - 3,
     REDO_MAX = 8,
     LOOP_MAX_DEFAULT = 65536,
     SCENE_PARAM_NONE = 0
 };
+_Static_assert((int)SPAN_TIMER >= (int)FM_MAX_PASSES, "a timer for each pass");
 
 /* A frame on its way. */
 typedef struct frame_run {
@@ -22,10 +24,38 @@ typedef struct frame_run {
     fm_params params;
     bool params_are_set;
     bool is_recording;
+    bool is_in_span;
     bool redo;
     uint64_t query[FM_MAX_QUERIES];
     fm_error *err;
 } frame_run;
+
+/* timers=frame: one timer from the first pass of a recording to its end; the recordings that a
+ * total's read-back parts add up. */
+static void pass_timer_begin(frame_run *frame, uint32_t timer)
+{
+    fm_device *device = frame->instance->device;
+    const bool is_span = frame->instance->desc.settings->timers == FM_TIMERS_FRAME;
+    if (frame->is_in_span)
+        return;
+    frame->is_in_span = is_span;
+    device->ops->timer_begin(device, is_span ? SPAN_TIMER : timer);
+}
+
+static void pass_timer_end(frame_run *frame, uint32_t timer)
+{
+    fm_device *device = frame->instance->device;
+    if (!frame->is_in_span)
+        device->ops->timer_end(device, timer);
+}
+
+static void span_end(frame_run *frame)
+{
+    fm_device *device = frame->instance->device;
+    if (frame->is_in_span)
+        device->ops->timer_end(device, SPAN_TIMER);
+    frame->is_in_span = false;
+}
 
 static fm_status flush(frame_run *frame)
 {
@@ -34,6 +64,7 @@ static fm_status flush(frame_run *frame)
     if (!frame->is_recording)
         return FM_OK;
     frame->is_recording = false;
+    span_end(frame);
     fm_status status = device->ops->frame_end(device, &times, frame->err);
     if (status != FM_OK)
         return status;
@@ -42,6 +73,7 @@ static fm_status flush(frame_run *frame)
     for (size_t i = 0; i < frame->instance->pass_count && frame->instance->emits_back; i++)
         if (strcmp(frame->instance->method->passes[i].name, "resolve") == 0)
             frame->result->pass_ns[i] += times.timer_ns[COMBINE_TIMER];
+    frame->result->span_ns += times.timer_ns[SPAN_TIMER];
     frame->result->canary_ns += times.timer_ns[CANARY_TIMER];
     memcpy(frame->query, times.query, sizeof frame->query);
     return FM_OK;
@@ -86,9 +118,9 @@ static fm_status run_pass(frame_run *frame, size_t index, uint32_t iteration)
     frame->result->scene_passes += pass->kind == FM_PASS_SCENE && pass->cover == FM_COVER_NONE;
     set_params(frame, iteration,
                is_total ? (uint32_t)pass_units(instance, pass) : SCENE_PARAM_NONE);
-    instance->device->ops->timer_begin(instance->device, (uint32_t)index);
+    pass_timer_begin(frame, (uint32_t)index);
     status = pass_issue(instance, index, iteration, frame->err);
-    instance->device->ops->timer_end(instance->device, (uint32_t)index);
+    pass_timer_end(frame, (uint32_t)index);
     return status;
 }
 
@@ -294,7 +326,7 @@ static fm_status run_range(frame_run *frame, size_t first, size_t last, uint32_t
 
 uint64_t frame_passes_ns(const fm_frame_result *result)
 {
-    uint64_t sum = 0;
+    uint64_t sum = result->span_ns;
     for (size_t i = 0; i < FM_MAX_PASSES; i++)
         sum += result->pass_ns[i];
     return sum;
@@ -312,6 +344,7 @@ static fm_status start(frame_run *frame)
     /* The last frame is the timed one; of those thrown away the sum is kept. */
     frame->result->redone_ns += frame_passes_ns(frame->result);
     memset(frame->result->pass_ns, 0, sizeof frame->result->pass_ns);
+    frame->result->span_ns = 0;
     frame->result->canary_ns = 0;
     frame->result->scene_passes = 0;
     frame->redo = false;
@@ -338,10 +371,10 @@ static fm_status combine(frame_run *frame)
     fm_status status = record(frame);
     if (status != FM_OK)
         return status;
-    instance->device->ops->timer_begin(instance->device, COMBINE_TIMER);
+    pass_timer_begin(frame, COMBINE_TIMER);
     status = pass_dispatch(instance, &pass, &instance->combine, pass_invocations(instance, &pass),
                            frame->err);
-    instance->device->ops->timer_end(instance->device, COMBINE_TIMER);
+    pass_timer_end(frame, COMBINE_TIMER);
     return status;
 }
 

@@ -13,7 +13,7 @@ _Static_assert(
         sizeof(fm_pool) == sizeof(unsigned) && sizeof(fm_full_screen) == sizeof(unsigned) &&
         sizeof(fm_culling) == sizeof(unsigned) && sizeof(fm_cull_range) == sizeof(unsigned) &&
         sizeof(fm_cull_test) == sizeof(unsigned) && sizeof(fm_cull_memory) == sizeof(unsigned) &&
-        sizeof(fm_own_cull) == sizeof(unsigned),
+        sizeof(fm_own_cull) == sizeof(unsigned) && sizeof(fm_timers) == sizeof(unsigned),
     "FM_KEY_ENUM stores an unsigned");
 
 #define AT(field) .offset = offsetof(fm_settings, field)
@@ -129,6 +129,8 @@ const fm_key fm_keys[] = {
       .fallback = "preallocated", .help = "when buffers are allocated" },
     { "full_screen", FM_KEY_ENUM, FM_SCOPE_CASE, AT(full_screen),
       .values = { "compute", "fragment" }, .fallback = "compute", .help = "passes over pixels" },
+    { "timers", FM_KEY_ENUM, QUIET, AT(timers), .values = { "passes", "frame" }, .fallback = "passes",
+      .help = "frame: one for all passes, none has a time, times_floor is of frames" },
     { "culling", FM_KEY_ENUM, QUIET, AT(culling), .values = { "none", "occupancy" },
       .fallback = "none", .help = "by an occupancy map, before the method's own passes" },
     { "cull_words", FM_KEY_UINT, QUIET, .with = "culling", AT(cull_words), .low = 1, .high = 64, .fallback = "32",

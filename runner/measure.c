@@ -82,6 +82,7 @@ static fm_status sample_method(fm_sample *sample, fm_measurement *measurement,
     fm_frame_result result;
     fm_status status = frame_again_if_lossy(&result, measurement, pair->method, NULL, err);
     memcpy(sample->pass_ns, result.pass_ns, sizeof sample->pass_ns);
+    sample->frame_ns = frame_passes_ns(&result);
     sample->wall_ns = result.wall_ns;
     sample->canary_ns = result.canary_ns;
     measurement->scene_passes = result.scene_passes;

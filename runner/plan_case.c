@@ -86,6 +86,8 @@ static void forget_unused_method_keys(fm_settings *settings, const fm_method_des
         settings->full_screen = FM_FULL_SCREEN_COMPUTE;
     if (method->technique == NULL)
         memset(settings->model, 0, sizeof settings->model);
+    else
+        settings->timers = FM_TIMERS_PASSES;
 }
 
 static fm_status make_settings(fm_settings *settings, const fm_plan_point *point, fm_error *err)

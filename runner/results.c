@@ -9,10 +9,15 @@
 #include <unistd.h>
 
 static const char *const sample_name[] = {
-    [FM_SAMPLE_FRAME_MS] = "frame_ms",         [FM_SAMPLE_FRAME_WALL_MS] = "frame_wall_ms",
-    [FM_SAMPLE_CLEAR_MS] = "clear_ms",         [FM_SAMPLE_COUNT_MS] = "count_ms",
-    [FM_SAMPLE_REFERENCE_MS] = "reference_ms", [FM_SAMPLE_STORE_MS] = "store_ms",
-    [FM_SAMPLE_RESOLVE_MS] = "resolve_ms",     [FM_SAMPLE_FLOOR_STORE_MS] = "floor_store_ms",
+    [FM_SAMPLE_FRAME_MS] = "frame_ms",
+    [FM_SAMPLE_FRAME_WALL_MS] = "frame_wall_ms",
+    [FM_SAMPLE_CLEAR_MS] = "clear_ms",
+    [FM_SAMPLE_COUNT_MS] = "count_ms",
+    [FM_SAMPLE_REFERENCE_MS] = "reference_ms",
+    [FM_SAMPLE_STORE_MS] = "store_ms",
+    [FM_SAMPLE_RESOLVE_MS] = "resolve_ms",
+    [FM_SAMPLE_FLOOR_STORE_MS] = "floor_store_ms",
+    [FM_SAMPLE_FLOOR_FRAME_MS] = "floor_frame_ms",
     [FM_SAMPLE_CANARY_NS] = "canary_ns",
 };
 _Static_assert(sizeof sample_name / sizeof sample_name[0] == FM_SAMPLE_METRIC_COUNT, "one each");

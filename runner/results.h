@@ -22,6 +22,7 @@ typedef enum fm_sample_metric {
     FM_SAMPLE_STORE_MS,
     FM_SAMPLE_RESOLVE_MS,
     FM_SAMPLE_FLOOR_STORE_MS,
+    FM_SAMPLE_FLOOR_FRAME_MS,
     FM_SAMPLE_CANARY_NS,
     FM_SAMPLE_METRIC_COUNT
 } fm_sample_metric;

@@ -71,6 +71,8 @@ typedef enum fm_release { FM_RELEASE_AUTO, FM_RELEASE_STORE, FM_RELEASE_EXCHANGE
 typedef enum fm_buffers { FM_BUFFERS_AUTO, FM_BUFFERS_BOUND, FM_BUFFERS_ADDRESS } fm_buffers;
 typedef enum fm_pool { FM_POOL_PREALLOCATED, FM_POOL_PER_FRAME } fm_pool;
 typedef enum fm_full_screen { FM_FULL_SCREEN_COMPUTE, FM_FULL_SCREEN_FRAGMENT } fm_full_screen;
+/* What has a timer: each pass, or all of them one. */
+typedef enum fm_timers { FM_TIMERS_PASSES, FM_TIMERS_FRAME } fm_timers;
 
 /* Occupancy-map culling: culling.h. */
 typedef enum fm_culling { FM_CULLING_NONE, FM_CULLING_OCCUPANCY } fm_culling;
@@ -133,6 +135,7 @@ typedef struct fm_settings {
     fm_buffers buffers;
     fm_pool pool;
     fm_full_screen full_screen;
+    fm_timers timers;
     fm_culling culling;
     uint32_t cull_words; /* of 32 buckets each */
     fm_cull_range cull_range;

@@ -183,17 +183,20 @@ static void write_median(fm_text *text, const row_state *row, const summary_colu
     csv_add_real(text, median_of(row, (fm_sample_metric)column->argument, UINT32_MAX));
 }
 
-/* Store time over the floor's, launch by launch: both ran in one process, moments apart. */
+/* Store time, or the frame's where that is all that is timed, over the floor's, launch by launch:
+ * both ran in one process, moments apart. */
 static void write_times_floor(fm_text *text, const row_state *row, const summary_column *column)
 {
     (void)column;
+    const bool is_span = row->measured->settings.timers == FM_TIMERS_FRAME;
     size_t count = 0;
     double *ratios = calloc(row->results->plan->launches, sizeof *ratios);
     for (uint32_t i = 0; ratios != NULL && i < row->results->plan->launches; i++) {
-        const double store_ms = median_of(row, FM_SAMPLE_STORE_MS, i);
-        const double floor_ms = median_of(row, FM_SAMPLE_FLOOR_STORE_MS, i);
-        if (!isnan(store_ms) && floor_ms > 0.0)
-            ratios[count++] = store_ms / floor_ms;
+        const double ms = median_of(row, is_span ? FM_SAMPLE_FRAME_MS : FM_SAMPLE_STORE_MS, i);
+        const double floor_ms =
+            median_of(row, is_span ? FM_SAMPLE_FLOOR_FRAME_MS : FM_SAMPLE_FLOOR_STORE_MS, i);
+        if (!isnan(ms) && floor_ms > 0.0)
+            ratios[count++] = ms / floor_ms;
     }
     if (ratios == NULL)
         text->failed = true;

@@ -34,7 +34,8 @@
  *   picture of all fragments).
  * Metrics of samples (ms): frame_ms, frame_wall_ms, clear_ms, count_ms, reference_ms, store_ms,
  *   resolve_ms, pass.NAME_ms for other passes; culling_ms, those that make the map; floor_store_ms,
- *   floor_frame_ms; canary_ns.
+ *   floor_frame_ms; canary_ns. With timers=frame only frame_ms, frame_wall_ms, floor_frame_ms and
+ *   canary_ns.
  * A "truth" job writes the truth file and answers status, message and metrics n,
  *   fragments_generated, nonempty_pixels. */
 #ifndef FM_WORKER_H

@@ -112,6 +112,18 @@ check folder_that_cannot_be_made 2 "/proc" "$program" run --method z-buffer "${s
 check unsupported_only_is_nothing 3 "1 not supported" "$program" run --method kplus-array \
     "${small[@]}" --feed triangles -o "$here/unsupported"
 
+# On the dummy device a timer costs something, and one for all passes is less than one for each.
+check frames_may_have_one_timer 0 "2 ok" "$program" run --method kplus-array "${small[@]}" \
+    -a timers=passes,frame -a launches=1 -o "$here/timers"
+awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
+    { ms[NR] = $at["frame_ms"]; passes[NR] = $at["clear_ms"] $at["store_ms"] $at["resolve_ms"] }
+    END { exit !(NR == 3 && passes[2] != "" && passes[3] == "" && ms[3] > 0 && ms[3] < ms[2]) }' \
+    "$here/timers/summary.csv" || complain "frames_may_have_one_timer: times in summary.csv"
+id=$(awk -F, 'NR == 3 { print $2 }' "$here/timers/summary.csv")
+metrics=$(grep ",$id,0,0," "$here/timers/samples.csv" | cut -d, -f6 | sort | paste -sd,)
+[ "$metrics" = canary_ns,floor_frame_ms,frame_ms,frame_wall_ms ] ||
+    complain "frames_may_have_one_timer: samples of $metrics"
+
 # Killed at any moment, the same command continues and ends with the same rows.
 for signal in INT TERM KILL; do
     env --default-signal=INT "$program" run --method kplus-array,z-buffer "${small[@]}" \

@@ -243,6 +243,48 @@ static void frames_thrown_away_are_counted_and_timed(void **state)
     kit_close(&kit);
 }
 
+static void expect_one_timer(kit_scene *scene, const kit_way *way)
+{
+    const fm_sample none = { 0 };
+    char texts[64];
+    fm_measurement each, one;
+    snprintf(texts, sizeof texts, "%s timers=frame", way->texts);
+    assert_true(kit_measure(&each, scene, way));
+    assert_true(kit_measure(&one, scene, &(kit_way){ way->method, way->feed, texts }));
+    const fm_sample *sample = &one.samples[0];
+    assert_true(sample->frame_ns > 0 && sample->floor_frame_ns > 0 && sample->canary_ns > 0);
+    assert_memory_equal(sample->pass_ns, none.pass_ns, sizeof none.pass_ns);
+    assert_int_equal(sample->floor_store_ns, 0);
+    assert_int_equal(one.redone_ns > 0, each.redone_ns > 0);
+    assert_true(kit_apart(each.image, one.image) == 0.0);
+    assert_memory_equal(&one.check, &each.check, sizeof one.check);
+    assert_int_equal(one.scene_passes, each.scene_passes);
+    measurement_free(&each);
+    measurement_free(&one);
+}
+
+/* Passes that follow each other, a loop, a total that parts the frame, a frame done again, an image
+ * that is combined from front and back, a map before the passes. */
+static void one_timer_for_a_frame_changes_its_times_only(void **state)
+{
+    static const kit_way ways[] = {
+        { "kplus-array", FM_FEED_RASTER, "k=4" },
+        { "kb-multi", FM_FEED_RASTER, "k=4" },
+        { "s-buffer", FM_FEED_COMPUTE_PIXEL, "" },
+        { "ab-ll", FM_FEED_RASTER, "" },
+        { "dual", FM_FEED_RASTER, "" },
+        { "kplus-array", FM_FEED_RASTER, "k=4 culling=occupancy" },
+    };
+    scene_kit kit;
+    kit_scene scene;
+    kit_open(&kit, device_of(state));
+    kit_scene_open(&scene, &kit, "width_px=16 height_px=16 n=9 pixel_density=1");
+    for (size_t i = 0; i < sizeof ways / sizeof ways[0]; i++)
+        expect_one_timer(&scene, &ways[i]);
+    kit_scene_close(&scene);
+    kit_close(&kit);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -254,6 +296,7 @@ int main(void)
         ON_VULKAN_AND_OSMESA(only_a_method_that_asks_for_64_bits_has_them),
         ON_VULKAN_AND_OSMESA(an_extent_beyond_64_bits_is_no_memory),
         ON_VULKAN_AND_OSMESA(frames_thrown_away_are_counted_and_timed),
+        ON_VULKAN_AND_OSMESA(one_timer_for_a_frame_changes_its_times_only),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "fragmark/technique.h"
 #include "plan.h"
 #include "text.h"
 
@@ -201,6 +202,7 @@ static void plan_refuses_axes_with_the_nearest_name(void **state)
         { "layot=pixel", "the nearest is 'layout'" },
         { "layout=pixle", "no value 'pixle'; the nearest is 'pixel'" },
         { "order=randm", "legal: random|" },
+        { "timers=pass", "timers: 'pass' is not a legal value; legal: passes|frame" },
         { "launches=3,5", "one value a run" },
         { "zoom=2", "no chosen scene reads 'zoom'" },
         { "device=vulcan", "no device 'vulcan'; the nearest is 'vulkan'" },
@@ -321,6 +323,19 @@ static void keys_of_a_map_that_is_not_there_are_forgotten(void **state)
     plan_free(&with.plan);
 }
 
+static void simulated_passes_have_no_timers(void **state)
+{
+    (void)state;
+    static const fm_technique technique = { 0 };
+    const fm_method_desc simulated = { .id = "ab", .version = "1", .technique = &technique };
+    fixture with;
+    fixture_create(&with);
+    with.plugins[0].method = &simulated;
+    expect(&with, &(fm_plan_request){ .methods = LIST("ab"), .axes = LIST("timers=passes,frame") },
+           1);
+    plan_free(&with.plan);
+}
+
 static void case_ids_tell_cases_apart_and_nothing_else(void **state)
 {
     (void)state;
@@ -336,8 +351,8 @@ static void case_ids_tell_cases_apart_and_nothing_else(void **state)
            &(fm_plan_request){ .methods = LIST("kb"), .axes = LIST("launches=9", "frames=3") }, 1);
     assert_string_equal(with.plan.cases[0].id, first);
     assert_int_equal(with.plan.launches, 9);
-    const char *const others[] = { "layout=layer", "k=4", "seed=2", "buffers=bound",
-                                   "pool=per-frame" };
+    const char *const others[] = { "layout=layer",   "k=4",         "seed=2", "buffers=bound",
+                                   "pool=per-frame", "timers=frame" };
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
         expect(&with, &(fm_plan_request){ .methods = LIST("kb"), .axes = LIST(others[i]) }, 1);
         assert_string_not_equal(with.plan.cases[0].id, first);
@@ -471,6 +486,7 @@ int main(void)
         cmocka_unit_test(plan_skips_with_the_reason),
         cmocka_unit_test(plan_skips_what_cannot_be_culled),
         cmocka_unit_test(keys_of_a_map_that_is_not_there_are_forgotten),
+        cmocka_unit_test(simulated_passes_have_no_timers),
         cmocka_unit_test(case_ids_tell_cases_apart_and_nothing_else),
         cmocka_unit_test(plan_reads_specs_and_lets_the_command_line_win),
         cmocka_unit_test(plan_refuses_specs_with_the_line),

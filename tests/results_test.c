@@ -17,11 +17,9 @@ static json_t *result_of(const double *store_ms, const double *canary_ns)
         const struct {
             const char *metric, *unit;
             double value;
-        } all[] = { { "frame_ms", "ms", 2.0 * store_ms[i] },
-                    { "store_ms", "ms", store_ms[i] },
-                    { "floor_store_ms", "ms", 0.5 },
-                    { "pass.sort_ms", "ms", 0.25 },
-                    { "canary_ns", "ns", canary_ns[i] } };
+        } all[] = { { "frame_ms", "ms", 2.0 * store_ms[i] }, { "store_ms", "ms", store_ms[i] },
+                    { "floor_store_ms", "ms", 0.5 },         { "floor_frame_ms", "ms", 2.0 },
+                    { "pass.sort_ms", "ms", 0.25 },          { "canary_ns", "ns", canary_ns[i] } };
         for (size_t j = 0; j < sizeof all / sizeof all[0]; j++)
             json_array_append_new(samples, json_pack("{s:i, s:s, s:f, s:s}", "frame", i, "metric",
                                                      all[j].metric, "value", all[j].value, "unit",
@@ -143,6 +141,21 @@ static void summary_row_holds_medians_ratios_and_rates(void **state)
     fake_close(&fake);
 }
 
+static void times_floor_is_of_frames_where_they_have_one_timer(void **state)
+{
+    (void)state;
+    fake_plan fake;
+    fm_results *results = created(&fake, 2);
+    const double first[] = { 1.0, 2.0, 3.0, -1 }, second[] = { 3.0, 4.0, 5.0, -1 };
+    const double steady[] = { 10, 10, 10 };
+    add(results, 0, first, steady);
+    add(results, 1, second, steady);
+    fake.cases[0].settings.timers = FM_TIMERS_FRAME;
+    assert_field(results, "times_floor", "3"); /* median of 4/2 and 8/2 */
+    results_destroy(results);
+    fake_close(&fake);
+}
+
 static void summary_leaves_k_empty_where_it_is_not_used(void **state)
 {
     (void)state;
@@ -204,6 +217,7 @@ static void samples_are_kept_with_metrics_that_have_no_column(void **state)
                                  "1,run,0000000000000001,0,0,frame_ms,3,ms\n"
                                  "1,run,0000000000000001,0,0,store_ms,1.5,ms\n"
                                  "1,run,0000000000000001,0,0,floor_store_ms,0.5,ms\n"
+                                 "1,run,0000000000000001,0,0,floor_frame_ms,2,ms\n"
                                  "1,run,0000000000000001,0,0,pass.sort_ms,0.25,ms\n"
                                  "1,run,0000000000000001,0,0,canary_ns,100,ns\n"
                                  "1,run,0000000000000001,,,wrong_pixels,3,\n");
@@ -257,6 +271,7 @@ int main(void)
         cmocka_unit_test(csv_quotes_as_rfc_4180_says),
         cmocka_unit_test(summary_has_the_columns_of_the_design_in_order),
         cmocka_unit_test(summary_row_holds_medians_ratios_and_rates),
+        cmocka_unit_test(times_floor_is_of_frames_where_they_have_one_timer),
         cmocka_unit_test(summary_leaves_k_empty_where_it_is_not_used),
         cmocka_unit_test(summary_options_name_what_is_not_as_usual),
         cmocka_unit_test(summary_excludes_samples_off_full_clock),
