@@ -1,5 +1,6 @@
 // The window as CAPACITY sorted keys that never leave registers: every index is a constant, an insertion
-// compares with all of them. For devices that run all lanes through every branch anyway.
+// compares with all of them. For devices that run all lanes through every branch anyway. No comparison waits
+// for another one.
 uvec2 window[CAPACITY];
 
 void window_clear()
@@ -11,13 +12,16 @@ void window_clear()
 // Returns what falls out: NO_KEY while there is room.
 uvec2 window_insert(uvec2 key)
 {
-    for (int i = 0; i < CAPACITY; ++i) {
-        bool is_before = comes_before(key, window[i]);
-        uvec2 moved = window[i];
-        window[i] = is_before ? key : moved;
-        key = is_before ? moved : key;
+    bool is_before = comes_before(key, window[CAPACITY - 1]);
+    uvec2 fallen = is_before ? window[CAPACITY - 1] : key;
+    for (int i = CAPACITY - 1; i > 0; --i) {
+        bool is_before_next = comes_before(key, window[i - 1]);
+        uvec2 moved = is_before_next ? window[i - 1] : key;
+        window[i] = is_before ? moved : window[i];
+        is_before = is_before_next;
     }
-    return key;
+    window[0] = is_before ? key : window[0];
+    return fallen;
 }
 
 uvec2 window_first()
