@@ -176,18 +176,35 @@ static uint32_t address_bits(const fm_instance *instance)
     return bits;
 }
 
+/* Whether the frame goes on with what the total sized before, until its end. */
+static bool waits(const fm_instance *instance, size_t total)
+{
+    return instance->method->totals[total].late && resources_are_there(instance, total);
+}
+
 static fm_status take_total(frame_run *frame, size_t index)
 {
     const uint32_t before = address_bits(frame->instance);
-    bool grew = false;
+    const bool was_used = waits(frame->instance, index);
+    bool was_created = false, grew = false;
     fm_status status = read_total(frame, index);
     if (status == FM_OK)
-        status = resources_create_after(frame->instance, index, frame->err);
+        status = resources_create_after(&was_created, frame->instance, index, frame->err);
     if (status == FM_OK)
         status = resources_grow(&grew, frame->instance, index, frame->err);
-    frame->redo = frame->redo || grew;
+    frame->redo = frame->redo || grew || (was_used && was_created);
     if (status == FM_OK && address_bits(frame->instance) != before)
         status = rebuild(frame);
+    return status;
+}
+
+/* Totals that frames did not wait for. */
+static fm_status take_late_totals(frame_run *frame)
+{
+    fm_status status = FM_OK;
+    for (size_t i = 0; i < frame->instance->total_count && status == FM_OK; i++)
+        if (frame->instance->method->totals[i].late)
+            status = take_total(frame, i);
     return status;
 }
 
@@ -198,7 +215,7 @@ static fm_status after_pass(frame_run *frame, size_t index, fm_next *next)
     const fm_pass *pass = &instance->method->passes[index];
     fm_status status = FM_OK;
     for (size_t i = 0; i < instance->total_count && status == FM_OK; i++) {
-        if (strcmp(instance->method->totals[i].pass, pass->name) != 0)
+        if (strcmp(instance->method->totals[i].pass, pass->name) != 0 || waits(instance, i))
             continue;
         status = flush(frame);
         if (status == FM_OK)
@@ -393,7 +410,9 @@ static fm_status run_once(frame_run *frame)
     frame->err = status == FM_OK ? err : &ignored;
     const fm_status ended = flush(frame);
     frame->err = err;
-    return status == FM_OK ? ended : status;
+    if (status == FM_OK)
+        status = ended;
+    return status == FM_OK && !frame->redo ? take_late_totals(frame) : status;
 }
 
 static fm_status read_counters(frame_run *frame)

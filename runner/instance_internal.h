@@ -52,8 +52,10 @@ struct fm_instance {
 
 /* instance_resources.c */
 fm_status resources_create_fixed(fm_instance *instance, fm_error *err);
-/* Those whose size follows the total of this number. */
-fm_status resources_create_after(fm_instance *instance, size_t total, fm_error *err);
+/* Those whose size follows the total of this number, unless they are there and large enough. */
+fm_status resources_create_after(bool *was_created, fm_instance *instance, size_t total,
+                                 fm_error *err);
+bool resources_are_there(const fm_instance *instance, size_t total);
 /* Makes room after an overflow; *grew tells whether there was one. */
 fm_status resources_grow(bool *grew, fm_instance *instance, size_t total, fm_error *err);
 void resources_destroy(fm_instance *instance);

@@ -4,6 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Some GPUs let the host see little of their memory. */
+enum { HOST_READ_BYTES_MAX = 16 << 20 };
+
 static const char previous_suffix[] = "_previous";
 
 int resource_index(const fm_method_desc *method, const char *name, bool *is_previous)
@@ -50,7 +53,8 @@ static fm_status create_buffer(fm_instance *instance, fm_slot *slot, const fm_re
                                   .bytes = own > shared ? own : shared,
                                   .owner = FM_OWNER_METHOD,
                                   .is_indirect = true,
-                                  .host_reads = resource->extent.constant > 0 };
+                                  .host_reads =
+                                      resource->extent.constant > 0 && own <= HOST_READ_BYTES_MAX };
     slot->length = length;
     return slot_create_buffer(slot, instance->device, instance->desc.settings->buffers, &desc, err);
 }
@@ -143,22 +147,35 @@ fm_status resources_create_fixed(fm_instance *instance, fm_error *err)
     return status == FM_OK ? table_upload(instance, err) : status;
 }
 
-fm_status resources_create_after(fm_instance *instance, size_t total, fm_error *err)
+static bool is_sized_by(const fm_instance *instance, size_t index, size_t total)
 {
-    const char *name = instance->method->totals[total].name;
-    bool changed = false;
+    const fm_resource *resource = &instance->method->resources[index];
+    return resource->sizing == FM_SIZE_AFTER_TOTAL &&
+           strcmp(resource->extent.total, instance->method->totals[total].name) == 0;
+}
+
+fm_status resources_create_after(bool *was_created, fm_instance *instance, size_t total,
+                                 fm_error *err)
+{
     fm_status status = FM_OK;
+    *was_created = false;
     for (size_t i = 0; i < instance->resource_count && status == FM_OK; i++) {
-        const fm_resource *resource = &instance->method->resources[i];
         const fm_slot *slot = &instance->resources[i][0];
-        if (resource->sizing != FM_SIZE_AFTER_TOTAL || strcmp(resource->extent.total, name) != 0)
-            continue;
-        if (slot->buffer != NULL && slot->length >= resource_elements(instance, i))
+        if (!is_sized_by(instance, i, total) ||
+            (slot->buffer != NULL && slot->length >= resource_elements(instance, i)))
             continue;
         status = create_resource(instance, i, err);
-        changed = true;
+        *was_created = true;
     }
-    return status == FM_OK && changed ? table_upload(instance, err) : status;
+    return status == FM_OK && *was_created ? table_upload(instance, err) : status;
+}
+
+bool resources_are_there(const fm_instance *instance, size_t total)
+{
+    for (size_t i = 0; i < instance->resource_count; i++)
+        if (is_sized_by(instance, i, total) && instance->resources[i][0].buffer == NULL)
+            return false;
+    return true;
 }
 
 fm_status resources_grow(bool *grew, fm_instance *instance, size_t total, fm_error *err)

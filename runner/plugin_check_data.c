@@ -315,9 +315,48 @@ static fm_status check_source(const fm_checked_method *check, const fm_total *to
     return FM_OK;
 }
 
+static bool is_same(const char *name, const char *other)
+{
+    return other != NULL && strcmp(name, other) == 0;
+}
+
+/* What needs the total before the frame's end; NULL: nothing. */
+static const char *needed_early(const fm_method_desc *method, const char *total)
+{
+    for (int i = 0; i < FM_MAX_PASSES && method->passes[i].name != NULL; i++)
+        if (is_same(total, method->passes[i].count_total))
+            return "count_total";
+    for (int i = 0; i < FM_MAX_RESOURCES && method->resources[i].name != NULL; i++)
+        if (is_same(total, method->resources[i].overflow))
+            return "overflow";
+    return method->after != NULL ? "after" : is_same(total, method->k_total) ? "k_total" : NULL;
+}
+
+static fm_status check_late(const fm_checked_method *check, const fm_total *total, fm_error *err)
+{
+    const char *early = needed_early(check->method, total->name);
+    size_t index;
+    if (!total->late)
+        return FM_OK;
+    if (total->resource == NULL)
+        return fm_fail(err, FM_INVALID, "late: needs resource");
+    if (check_known(&index, total->resource, "resource", &check->resources, err) != FM_OK)
+        return FM_INVALID;
+    if (check->method->loops[0].first != NULL)
+        return fm_fail(err, FM_INVALID, "late: not with loops, which may write it again");
+    if (check->method->resources[index].shares != NULL)
+        return fm_fail(err, FM_INVALID, "late: resource '%s' shares its memory", total->resource);
+    if (early != NULL)
+        return fm_fail(err, FM_INVALID, "late: not with %s, which needs it during the frame",
+                       early);
+    return FM_OK;
+}
+
 static fm_status check_total(const fm_checked_method *check, const fm_total *total, fm_error *err)
 {
     size_t index;
+    if (check_late(check, total, err) != FM_OK)
+        return FM_INVALID;
     if (!check_is_word(total->name, "_-"))
         return fm_fail(err, FM_INVALID, "needs lower-case letters, digits, '-' and '_'");
     if (total->pass == NULL)

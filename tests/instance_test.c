@@ -26,12 +26,21 @@ static const char wide_file[] =
     "void wide(uvec2 pixel)\n{\n    uint64_t sum = uint64_t(pixel.x) + 1ul;\n"
     "    if (pixel == uvec2(0u))\n        result[0] = uint(sum >> 1);\n}\n";
 
+static const char more_file[] =
+    "void more(uvec2 pixel)\n{\n    if (pixel == uvec2(0u))\n"
+    "        result[0] = result[0] == 1u || result[0] == 6u ? 6u : 1u;\n"
+    "}\n";
+static const char number_file[] =
+    "void number(uvec2 pixel)\n{\n    uint i = fm_pixel_index(pixel);\n"
+    "    if (i < fm_length_many)\n        many[i] = i;\n}\n";
+
 static const struct {
     const char *name, *text;
 } files[] = { { "one.glsl", add_one },        { "hundred.glsl", add_hundred },
               { "result.glsl", result_file }, { "step.glsl", step_file },
               { "take.glsl", take_file },     { "vote.glsl", vote_file },
-              { "wide.glsl", wide_file } };
+              { "wide.glsl", wide_file },     { "more.glsl", more_file },
+              { "number.glsl", number_file } };
 enum { FILE_COUNT = sizeof files / sizeof files[0] };
 
 static void write_files(char folder[32])
@@ -54,9 +63,24 @@ static void remove_files(const char *folder)
     rmdir(folder);
 }
 
-/* Runs one frame of the method on an empty scene and reads result[0]. */
-static fm_status try_frame(uint32_t *word, fm_device *device, const fm_method_desc *method,
-                           fm_buffers buffers, fm_error *err)
+typedef struct frames_seen {
+    uint32_t redos;  /* of the last frame */
+    uint64_t length; /* of the last resource, after it */
+    uint32_t last;   /* its last element */
+} frames_seen;
+
+static const char *last_resource(const fm_method_desc *method)
+{
+    size_t count = 0;
+    while (count < FM_MAX_RESOURCES && method->resources[count].name != NULL)
+        count++;
+    return method->resources[count - 1].name;
+}
+
+/* Runs frames of the method on an empty scene and reads result[0]. */
+static fm_status try_frames(uint32_t *word, frames_seen *seen, fm_device *device,
+                            const fm_method_desc *method, fm_buffers buffers, int frames,
+                            fm_error *err)
 {
     char folder[32] = "/tmp/fm-instance-XXXXXX";
     scene_kit kit;
@@ -77,17 +101,31 @@ static fm_status try_frame(uint32_t *word, fm_device *device, const fm_method_de
     full.stage = stage;
     if (status == FM_OK)
         status = instance_create(&instance, &full, err);
-    if (status == FM_OK)
+    for (int i = 0; i < frames && status == FM_OK; i++)
         status = instance_frame(&result, instance, NULL, err);
     if (status == FM_OK)
         status = device->ops->buffer_read(device, instance_slot(instance, "result")->buffer, 0,
                                           word, sizeof *word, err);
+    if (status == FM_OK) {
+        const char *last = last_resource(method);
+        const fm_slot *slot = instance_slot(instance, last);
+        *seen = (frames_seen){ .redos = result.redos, .length = slot->length };
+        status = device->ops->buffer_read(device, slot->buffer, (slot->length - 1) * 4, &seen->last,
+                                          sizeof seen->last, err);
+    }
     instance_destroy(instance);
     stage_destroy(stage);
     kit_scene_close(&scene);
     kit_close(&kit);
     remove_files(folder);
     return status;
+}
+
+static fm_status try_frame(uint32_t *word, fm_device *device, const fm_method_desc *method,
+                           fm_buffers buffers, fm_error *err)
+{
+    frames_seen ignored;
+    return try_frames(word, &ignored, device, method, buffers, 1, err);
 }
 
 static uint32_t run_frame(fm_device *device, const fm_method_desc *method, fm_buffers buffers)
@@ -220,6 +258,39 @@ static void an_extent_beyond_64_bits_is_no_memory(void **state)
     }
 }
 
+/* The first frame waits for the total, which is 1; the second one goes on with what that sized,
+ * finds at its end that the total has become 6, and is run again. */
+static void a_late_total_runs_the_frame_again_that_it_had_no_room_in(void **state)
+{
+    static const fm_method_desc method = {
+        HEAD,
+        .resources = { { .name = "result", .extent = { .constant = 1 } },
+                       { .name = "many",
+                         .sizing = FM_SIZE_AFTER_TOTAL,
+                         .extent = { .per_total = 1, .total = "sum" } } },
+        .totals = { { .name = "sum", .resource = "result", .pass = "more", .late = true } },
+        .passes = { { .name = "more",
+                      .kind = FM_PASS_PIXELS,
+                      .shader = "more.glsl",
+                      .writes = { "result" } },
+                    { .name = "number",
+                      .kind = FM_PASS_PIXELS,
+                      .shader = "number.glsl",
+                      .writes = { "many" } } },
+    };
+    static const frames_seen expected[] = { { 0, 1, 0 }, { 1, 6, 5 }, { 0, 6, 5 } };
+    for (int i = 0; i < 3; i++) {
+        uint32_t word = 0;
+        fm_error err = { 0 };
+        frames_seen seen = { 0 };
+        assert_int_equal(try_frames(&word, &seen, *state, &method, FM_BUFFERS_AUTO, i + 1, &err),
+                         FM_OK);
+        assert_int_equal(seen.redos, expected[i].redos);
+        assert_int_equal(seen.length, expected[i].length);
+        assert_int_equal(seen.last, expected[i].last);
+    }
+}
+
 static void expect_redone(kit_scene *scene, const char *method, uint64_t frames)
 {
     fm_measurement m;
@@ -295,6 +366,7 @@ int main(void)
         ON_VULKAN_AND_OSMESA(a_method_that_asks_for_ballots_has_their_words),
         ON_VULKAN_AND_OSMESA(only_a_method_that_asks_for_64_bits_has_them),
         ON_VULKAN_AND_OSMESA(an_extent_beyond_64_bits_is_no_memory),
+        ON_VULKAN_AND_OSMESA(a_late_total_runs_the_frame_again_that_it_had_no_room_in),
         ON_VULKAN_AND_OSMESA(frames_thrown_away_are_counted_and_timed),
         ON_VULKAN_AND_OSMESA(one_timer_for_a_frame_changes_its_times_only),
     };

@@ -76,6 +76,13 @@ static fm_method_desc sound(void)
     };
 }
 
+static fm_next never(const fm_workload *workload, const char *pass)
+{
+    (void)workload;
+    (void)pass;
+    return FM_NEXT;
+}
+
 static void assert_check_fails(const fm_method_desc *method, const char *message)
 {
     fm_error err = { 0 };
@@ -255,6 +262,15 @@ static void plugin_check_rejects_bad_totals(void **state)
     REFUSES(m.totals[1].index = 64, "'pool' has 64 elements");
     REFUSES(m.totals[2].pass = "resolve", "scene passes only");
     REFUSES(m.totals[2].sum = true, "need resource");
+    REFUSES(m.totals[0].late = true, "late: not with loops");
+    REFUSES((memset(m.loops, 0, sizeof m.loops), m.totals[0].late = true),
+            "late: not with count_total");
+    REFUSES((memset(m.loops, 0, sizeof m.loops), m.totals[1].late = true),
+            "late: not with overflow");
+    REFUSES(m.totals[2].late = true, "late: needs resource");
+    REFUSES((memset(m.loops, 0, sizeof m.loops), m.passes[SPREAD].kind = FM_PASS_PIXELS,
+             m.passes[SPREAD].count_total = NULL, m.after = never, m.totals[0].late = true),
+            "late: not with after");
     REFUSES(m.totals[5].name = REST, "totals[5]");
 }
 

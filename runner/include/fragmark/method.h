@@ -59,7 +59,7 @@
 
 #include "fragmark/status.h"
 
-#define FM_ABI 3u
+#define FM_ABI 4u
 
 enum {
     FM_MAX_OPTIONS = 8,
@@ -252,6 +252,9 @@ typedef struct fm_total {
     uint64_t index;
     bool sum;         /* instead: the sum of all elements of `resource` */
     const char *pass; /* with no resource: the samples that passed in this scene pass */
+    bool late; /* only sizes resources, and who writes those checks fm_length_NAME: a frame does
+                  not wait for it once they are there, but is run again if they were too
+                  small. The element keeps its value to the frame's end; no loops */
 } fm_total;
 
 typedef enum fm_pass_kind {
