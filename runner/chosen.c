@@ -1,5 +1,6 @@
 #include "chosen.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -180,11 +181,20 @@ static fm_status unknown_option(const fm_chosen *chosen, const fm_sweep *sweep, 
     return unknown(sweep->origin, "key or option of a chosen method", sweep->name, nearest, err);
 }
 
+/* "8|16|32" behind what the text has. */
+static void add_values(char text[FM_TEXT_MAX], const fm_option *option)
+{
+    for (size_t i = 0; i < FM_MAX_OPTION_VALUES && option->values[i] != NULL; i++) {
+        const size_t used = strlen(text);
+        snprintf(text + used, FM_TEXT_MAX - used, "%s%s", used > 0 ? "|" : "", option->values[i]);
+    }
+}
+
 /* A value that no chosen method's option has is a mistake, not a case to skip. */
 static fm_status check_option_value(const fm_chosen *chosen, const fm_sweep *sweep,
                                     const char *value, fm_error *err)
 {
-    const char *nearest = NULL;
+    char legal[FM_TEXT_MAX] = "";
     for (size_t i = 0; i < chosen->method_count; i++) {
         const fm_method_desc *method = method_of(chosen, i);
         const fm_option *option = method != NULL ? option_find(method, sweep->name) : NULL;
@@ -192,14 +202,11 @@ static fm_status check_option_value(const fm_chosen *chosen, const fm_sweep *swe
             continue;
         if (option_has_value(option, value))
             return FM_OK;
-        size_t count = 0;
-        while (count < FM_MAX_OPTION_VALUES && option->values[count] != NULL)
-            count++;
-        const char *near_here = text_nearest(value, option->values, count);
-        if (nearest == NULL)
-            nearest = near_here != NULL ? near_here : option->values[0];
+        if (legal[0] == '\0')
+            add_values(legal, option);
     }
-    return unknown(sweep->origin, "value", value, nearest, err);
+    return fm_fail(err, FM_INVALID, "%s: '%.100s' is not a legal value; legal: %s", sweep->origin,
+                   value, legal);
 }
 
 static fm_status check_option(const fm_chosen *chosen, const fm_sweep *sweep, fm_error *err)

@@ -200,7 +200,7 @@ static void plan_refuses_axes_with_the_nearest_name(void **state)
         { "alpha=0.5:1:+1e-300", "is too small" },
         { "tesselation=4", "the nearest is 'tessellation'" },
         { "layot=pixel", "the nearest is 'layout'" },
-        { "layout=pixle", "no value 'pixle'; the nearest is 'pixel'" },
+        { "layout=pixle", "'pixle' is not a legal value; legal: " },
         { "order=randm", "legal: random|" },
         { "timers=pass", "timers: 'pass' is not a legal value; legal: passes|frame" },
         { "launches=3,5", "one value a run" },
@@ -434,7 +434,7 @@ static void plan_refuses_specs_with_the_line(void **state)
         { "n: 4\nr: 2\n", "spec.yml:2: n and r" },
         { "k: 4\nk: 8\n", "spec.yml:2: 'k' stands on line 1" },
         { "- kb\n", "spec.yml:1: not 'key: value'" },
-        { "layout: pixl\n", "spec.yml:1: no value 'pixl'; the nearest is 'pixel'" },
+        { "layout: pixl\n", "spec.yml:1: 'pixl' is not a legal value; legal: " },
     };
     fixture with;
     fixture_create(&with);
