@@ -63,14 +63,28 @@ static void style_series(fm_series *series, const fm_method_info *look)
     series->stroke = look->is_dashed ? FM_STROKE_DASHED : FM_STROKE_SOLID;
 }
 
+/* A method without a k joins the workloads of others that differ in it. */
+static bool has_other_k(const fm_figure_job *at, const fm_case_row *one)
+{
+    const fm_name_list free_columns = figure_free_columns(at->from);
+    bool differs = false;
+    for (size_t i = 0; i < at->group->count && !name_list_names(&free_columns, "k"); i++) {
+        const fm_case_row *other = at->group->cases[i];
+        differs |= strcmp(other->method, one->method) == 0 && other->k != one->k;
+    }
+    return differs && !isnan(one->k);
+}
+
 static void label_ours(fm_series *series, const fm_figure_job *at, const fm_case_row *one)
 {
     const fm_name_list free_columns = figure_free_columns(at->from);
-    char title[96];
+    char title[96], k[24] = "";
     if (series->point_count == 0)
         return;
     group_series_title(title, one, &free_columns);
-    snprintf(series->label, sizeof series->label, "%.76s%s", title,
+    if (has_other_k(at, one))
+        snprintf(k, sizeof k, ", k = %.0f", one->k);
+    snprintf(series->label, sizeof series->label, "%.60s%s%s", title, k,
              one->is_ok ? "" : " (wrong image)");
 }
 
@@ -94,7 +108,9 @@ bool figure_is_same_series(const fm_figure_job *at, size_t a, size_t b)
 {
     const fm_name_list free_columns = figure_free_columns(at->from);
     const fm_case_row *one = at->group->cases[a], *other = at->group->cases[b];
+    const bool same_k = one->k == other->k || (isnan(one->k) && isnan(other->k));
     return strcmp(one->method, other->method) == 0 &&
+           (same_k || name_list_names(&free_columns, "k")) &&
            group_same_own_options(one, other, &free_columns);
 }
 

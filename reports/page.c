@@ -87,8 +87,9 @@ void page_add_guide(fm_text *page)
         "<b>The floor</b> is a method that consumes every fragment and stores none. <b>&times; "
         "floor</b> is a method's store time over the floor's (with timers=frame: frame time over "
         "frame time), measured in the same process: 1 is "
-        "as cheap as taking every fragment can be, and only hardware that rejects fragments before "
-        "the shader (Z-buffer) comes below. It compares between machines where milliseconds "
+        "as cheap as taking every fragment can be, and only who need not look at every fragment "
+        "(Z-buffer, culling, tile-k) comes below. Each feed has its floor. It compares between "
+        "machines where milliseconds "
         "cannot.",
         "<b>total_rmse</b> is the error of the picture against all fragments, sorted and "
         "composited "
