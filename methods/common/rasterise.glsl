@@ -3,7 +3,12 @@
 //   uint parts = fm_parts(triangle)      0: dropped; more than 1 only after clipping
 //   fm_set_up(t, part)                   false: covers no pixel
 //   fm_edges_at(t, corner)               of a block: inside is all three >= 0, + a x + b y from there
-//   fm_depth(t, pixel)
+//   fm_depth_bits(pixel, ...)            of a plane
+// FM_NEAR_WAYS true, defined before: near triangles have shorter ways to the same numbers. That pays where lanes
+// branch and the rest of a shader is long (measured: tile-k/README.md).
+#ifndef FM_NEAR_WAYS
+#define FM_NEAR_WAYS false
+#endif
 
 // A part that is ready; 1/256 px.
 struct fm_setup {
@@ -12,6 +17,7 @@ struct fm_setup {
     float z, dz_dx, dz_dy; // at corner 0; by 1/256 px
     float z_least, z_most;
     ivec4 box; // pixels x0 y0 x1 y1, the last ones included; within the viewport
+    bool is_near; // corners within 64 px of each other: 32 bits hold products of their differences
 };
 
 float fm_reciprocal(float v)
@@ -171,14 +177,25 @@ bool fm_snap_part(out fm_setup t, out vec3 z, uint part)
     ivec2 high = ivec2(max(max(t.x[0], t.x[1]), t.x[2]), max(max(t.y[0], t.y[1]), t.y[2]));
     t.box.xy = max((low + 127) >> 8, ivec2(0)); // the first centre at or right of the corner
     t.box.zw = min((high - 128) >> 8, ivec2(FM_WIDTH, FM_HEIGHT) - 1);
+    t.is_near = FM_NEAR_WAYS && all(lessThan(high - low, ivec2(64 * 256)));
     return all(lessThanEqual(t.box.xy, t.box.zw));
+}
+
+// Twice the area, as 64 bits.
+uvec2 fm_area(fm_setup t)
+{
+    if (t.is_near) {
+        int near = (t.x[1] - t.x[0]) * (t.y[2] - t.y[0]) - (t.x[2] - t.x[0]) * (t.y[1] - t.y[0]);
+        return uvec2(uint(near), uint(near >> 31));
+    }
+    return fm_wide_sum(fm_wide_product(t.x[1] - t.x[0], t.y[2] - t.y[0]),
+                       fm_wide_negative(fm_wide_product(t.x[2] - t.x[0], t.y[1] - t.y[0])));
 }
 
 // The rest, after fm_snap_part. False: no area.
 bool fm_set_up_snapped(inout fm_setup t, vec3 z)
 {
-    uvec2 area = fm_wide_sum(fm_wide_product(t.x[1] - t.x[0], t.y[2] - t.y[0]),
-                             fm_wide_negative(fm_wide_product(t.x[2] - t.x[0], t.y[1] - t.y[0])));
+    uvec2 area = fm_area(t);
     bool is_turned = int(area.y) < 0;
     area = is_turned ? fm_wide_negative(area) : area;
     t.x = is_turned ? t.x.xzy : t.x;
@@ -221,10 +238,15 @@ int fm_edge_at(int a, int b, int x, int y)
     return high == low >> 31 ? clamped : (high < 0 ? -0x40000000 : 0x40000000);
 }
 
-// The three edges at the centre of the pixel `corner`.
+// The three edges at the centre of the pixel `corner`, which lies within 64 px of the box.
 ivec3 fm_edges_at(fm_setup t, ivec2 corner)
 {
     ivec3 x = t.x - (corner.x * 256 + 128), y = t.y - (corner.y * 256 + 128);
+    if (t.is_near) {
+        ivec3 is_top_left = ivec3(greaterThan(t.a, ivec3(0)))
+            | ivec3(equal(t.a, ivec3(0))) & ivec3(greaterThan(t.b, ivec3(0)));
+        return (~(t.a * x + t.b * y) + is_top_left) >> 8;
+    }
     return ivec3(fm_edge_at(t.a[0], t.b[0], x[0], y[0]), fm_edge_at(t.a[1], t.b[1], x[1], y[1]),
                  fm_edge_at(t.a[2], t.b[2], x[2], y[2]));
 }

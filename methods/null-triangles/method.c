@@ -19,31 +19,34 @@ const fm_method_desc fm_method = {
           .help = "of depth in a tile" },
     },
     .resources = {
-        { .name = "groups", .extent = { .constant = 5 } }, /* words: tile-k/layout.glsl */
         { .name = "fill_groups", .extent = { .constant = 3 } }, /* x y z of a dispatch */
         { .name = "store_groups", .extent = { .constant = 4 } }, /* ... and a count */
         { .name = "listed", .extent = { .per_tile = 1 } },
         { .name = "notes", .extent = { .per_triangle = 1 } },
-        { .name = "bins", .extent = { .per_tile = 66 } }, /* BLOCKS BIN_WORDS */
+        { .name = "bins", .extent = { .constant = 5, .per_tile = 66 } }, /* tile-k/layout.glsl */
         { .name = "pairs", .sizing = FM_SIZE_AFTER_TOTAL,
           .extent = { .per_total = 1, .total = "pairs" } },
         { .name = "sink", .extent = { .constant = 1 } },
     },
-    .totals = { { .name = "pairs", .resource = "groups", .index = 4, .pass = "reference" } },
+    .totals = { { .name = "pairs",
+                  .resource = "bins",
+                  .index = 4,
+                  .pass = "reference",
+                  .late = true } },
     .passes = {
-        { .name = "clear", .kind = FM_PASS_CLEAR, .writes = { "bins", "groups" } },
+        { .name = "clear", .kind = FM_PASS_CLEAR, .writes = { "bins" } },
         { .name = "clear-list", .kind = FM_PASS_CLEAR, .writes = { "store_groups" },
           .narrow_only = true },
         { .name = "count", .kind = FM_PASS_TRIANGLES, .shader = "tile-k/count.glsl",
-          .writes = { "bins", "groups", "notes", "listed" } },
-        { .name = "count-large", .kind = FM_PASS_INDIRECT, .indirect = "groups",
-          .shader = "tile-k/count_large.glsl", .reads = { "groups", "notes", "listed" },
+          .writes = { "bins", "notes", "listed" } },
+        { .name = "count-large", .kind = FM_PASS_INDIRECT, .indirect = "bins",
+          .shader = "tile-k/count_large.glsl", .reads = { "notes", "listed" },
           .writes = { "bins" } },
         { .name = "reference", .kind = FM_PASS_TILES, .lanes = FM_GROUP_LANES, .lanes_narrow = 1,
           .shader = "tile-k/reference.glsl",
-          .writes = { "bins", "groups", "fill_groups", "store_groups", "listed" } },
+          .writes = { "bins", "fill_groups", "store_groups", "listed" } },
         { .name = "fill", .kind = FM_PASS_INDIRECT, .indirect = "fill_groups",
-          .shader = "tile-k/fill.glsl", .reads = { "groups", "fill_groups", "notes", "listed" },
+          .shader = "tile-k/fill.glsl", .reads = { "fill_groups", "notes", "listed" },
           .writes = { "bins", "pairs" } },
         { .name = "store", .kind = FM_PASS_INDIRECT, .indirect = "store_groups",
           .shader = "store.glsl", .reads = { "store_groups", "listed", "bins", "pairs" },

@@ -31,5 +31,5 @@ void store(uint i)
         return;
     own_pixel = uvec2(tile % TILES_X, tile / TILES_X) * 8u + pixel_in_tile(this_place());
     uint bin = own_bin(tile);
-    scan(bin, bins[bin * BIN_WORDS + BUCKETS], own_pixel);
+    scan(bin, bins[words_of(bin) + BUCKETS], own_pixel);
 }

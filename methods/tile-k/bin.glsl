@@ -7,24 +7,37 @@
 void put(uint bin, uint bucket, uint pair);
 
 // The list of large triangles. As macros: not every pass has the buffers.
-#define large_count() min(groups[LARGE], LARGE_MAX)
+#define large_count() min(bins[LARGE], LARGE_MAX)
 #if TAKES_NOTES
 #define large_at(i) listed[i]
 #else
 #define large_at(i) notes[i]
 #endif
 
+// Whether no pixel of its box is covered, where that is at most 2 x 2: so it is with a quarter of the triangles
+// that are about as large as a pixel. `edges`: at `corner`.
+bool misses_all(fm_setup t, ivec3 edges, ivec2 corner)
+{
+    ivec2 first = t.box.xy - corner, more = t.box.zw - t.box.xy;
+    ivec3 a = more.x > 0 ? t.a : ivec3(0), b = more.y > 0 ? t.b : ivec3(0);
+    ivec3 e = edges + t.a * first.x + t.b * first.y;
+    ivec3 f = e + a, g = e + b, h = f + b;
+    int misses = (e.x | e.y | e.z) & (f.x | f.y | f.z) & (g.x | g.y | g.z) & (h.x | h.y | h.z);
+    return all(lessThan(more, ivec2(2))) && misses < 0;
+}
+
 // Its blocks from `first` on, `size` columns and rows within REACH_PX: so far an edge is held by 32 bits, and the
 // wide sum is needed but once. Which of 2 x 2 are covered, if there are no more.
 uint bin_blocks(fm_setup t, uint pair, uint bucket, ivec2 first, ivec2 size)
 {
     ivec3 reach = max(t.a, ivec3(0)) * (BLOCK_PX.x - 1) + max(t.b, ivec3(0)) * (BLOCK_PX.y - 1);
-    ivec3 row = fm_edges_at(t, first << BLOCK_SHIFT) + reach, most = row; // of each edge in the block
+    ivec3 edges = fm_edges_at(t, first << BLOCK_SHIFT);
+    ivec3 row = edges + reach, most = row; // of each edge in the block
     ivec2 at = ivec2(0);
     uint covered = 0u;
-    int i = size.x * size.y;
+    int i = misses_all(t, edges, first << BLOCK_SHIFT) ? 0 : size.x * size.y;
     FM_LOOP do {
-        if ((most.x | most.y | most.z) >= 0) {
+        if ((most.x | most.y | most.z) >= 0 && i > 0) {
             put(bin_of(first + at), bucket, pair);
             covered |= 1u << (at.x + 2 * at.y & 31);
         }

@@ -4,13 +4,13 @@
 // Whether there was room. The list's dispatch grows with it: x up to 256 groups, then y.
 bool put_off(uint triangle)
 {
-    uint at = atomicAdd(groups[LARGE], 1u); // unique; the list's order does not matter
+    uint at = atomicAdd(bins[LARGE], 1u); // unique; the list's order does not matter
     if (at >= LARGE_MAX)
         return false;
     large_at(at) = triangle;
-    atomicMax(groups[0], min(at + 1u, 256u));
-    atomicMax(groups[1], at / 256u + 1u);
-    atomicMax(groups[2], 1u);
+    atomicMax(bins[0], min(at + 1u, 256u));
+    atomicMax(bins[1], at / 256u + 1u);
+    atomicMax(bins[2], 1u);
     return true;
 }
 

@@ -3,5 +3,5 @@
 
 void put(uint bin, uint bucket, uint pair)
 {
-    atomicAdd(bins[bin * BIN_WORDS + bucket], 1u); // a sum: the order does not matter
+    atomicAdd(bins[words_of(bin) + bucket], 1u); // a sum: the order does not matter
 }

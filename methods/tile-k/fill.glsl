@@ -4,7 +4,9 @@
 
 void put(uint bin, uint bucket, uint pair)
 {
-    pairs[atomicAdd(bins[bin * BIN_WORDS + bucket], 1u)] = pair; // collide; each gets its own place
+    uint at = atomicAdd(bins[words_of(bin) + bucket], 1u); // collide; each gets its own place
+    if (at < fm_length_pairs) // else the frame is run again with more of them
+        pairs[at] = pair;
 }
 
 #if TAKES_NOTES

@@ -1,6 +1,6 @@
-// Bins: a tile of 8 x 8 pixels has BLOCKS blocks, each with 32 buckets of depth by a triangle's least
-// z. bins holds 33 words a block: while counting, each bucket's pairs; then where each bucket's next
-// pair goes, and at the end where it ends; the last word is where the block's pairs begin.
+// Bins: a tile of 8 x 8 pixels has TILE_BLOCKS blocks, each with 32 buckets of depth by a triangle's least
+// z. bins[] holds 33 words a block, from words_of(bin) on: while counting, each bucket's pairs; then where each
+// bucket's next pair goes, and at the end where it ends; the last word is where the block's pairs begin.
 #include "tile-k/lanes.glsl"
 
 const uint BUCKETS = 32u;
@@ -8,13 +8,17 @@ const uint BIN_WORDS = BUCKETS + 1u;
 const uint TILES_X = (uint(FM_WIDTH) + 7u) / 8u;
 const uint TILES = TILES_X * ((uint(FM_HEIGHT) + 7u) / 8u);
 
-// A wide subgroup covers 8 x 4 pixels: small triangles lie in one half of a tile, and the other half
-// need not look at them. Elsewhere more pairs cost more than they save. method.c allocates for two.
-#if LANES == 32
-const uint BLOCKS = 2u;
+// A wide subgroup covers 8 x 4 pixels: small triangles, as they are where there are many more of them than pixels, lie
+// in one half of a tile, and the other half need not look at them. Elsewhere more pairs cost more than they save (4:
+// measured, README). method.c allocates for two.
+#ifndef BLOCKS // is an option of the method
+#define BLOCKS 0
+#endif
+#if BLOCKS == 2 || (BLOCKS == 0 && LANES == 32 && FM_TRIANGLES > 4 * FM_WIDTH * FM_HEIGHT)
+const uint TILE_BLOCKS = 2u;
 const ivec2 BLOCK_SHIFT = ivec2(3, 2);
 #else
-const uint BLOCKS = 1u;
+const uint TILE_BLOCKS = 1u;
 const ivec2 BLOCK_SHIFT = ivec2(3, 3);
 #endif
 const ivec2 BLOCK_PX = ivec2(1) << BLOCK_SHIFT;
@@ -23,17 +27,38 @@ const ivec2 BLOCK_PX = ivec2(1) << BLOCK_SHIFT;
 uint bin_of(ivec2 block)
 {
     uint row = uint(block.y);
-    return (row / BLOCKS * TILES_X + uint(block.x)) * BLOCKS + row % BLOCKS;
+    return (row / TILE_BLOCKS * TILES_X + uint(block.x)) * TILE_BLOCKS + row % TILE_BLOCKS;
 }
 
-// groups[]: x y z of the large triangles' dispatch, and more words that begin as 0.
+// Where to set a triangle up costs more than to remember, `count` leaves `fill` a note of each in notes[], and
+// the list of large ones is in listed[], as long as that is: who finds no room there is not listed, and slower.
+// Elsewhere notes[] is the list.
+#ifndef NOTES // is an option of the method
+#define NOTES 0
+#define NOTES_AUTO 0
+#define NOTES_ALWAYS 1
+#endif
+#if (NOTES == NOTES_ALWAYS || (NOTES == NOTES_AUTO && LANES == 32)) && !FM_CLIPS && FM_WIDTH <= 8192 \
+    && FM_HEIGHT <= 8192
+#define TAKES_NOTES 1
+#else
+#define TAKES_NOTES 0
+#endif
+
+// Before them in bins[], so that one command clears all: x y z of the large triangles' dispatch, and
 const uint LARGE = 3u; // how many there are
 const uint ALLOCATED = 4u; // pairs
+const uint HEAD_WORDS = 5u;
+
+uint words_of(uint bin)
+{
+    return HEAD_WORDS + bin * BIN_WORDS;
+}
 
 // store_groups[]: x y z of the dispatch over tiles, and how many tiles listed[] has. Narrow subgroups are
 // in practice those of software, which runs all of a shader for a tile that has nothing: there listed[] has
-// the others.
-const bool LISTS_TILES = FM_NARROW != 0;
+// the others, unless notes need it.
+const bool LISTS_TILES = FM_NARROW != 0 && TAKES_NOTES == 0;
 const uint LISTED = 3u;
 const uint GROUPS_X = 32768u; // of a dispatch, then y
 
@@ -47,13 +72,10 @@ const uint TRIANGLE_MASK = (1u << PART_SHIFT) - 1u;
 // Triangles whose box has more blocks, or whose width and height reach farther, go to a list: a workgroup for
 // each, an invocation for a stretch.
 const int REACH_PX = 64; // so far fm_edges_at() can be stepped (common/rasterise.glsl)
-const int SMALL_BLOCKS = 16 * int(BLOCKS);
+const int SMALL_BLOCKS = 16 * int(TILE_BLOCKS);
 const ivec2 LARGE_STRETCH = ivec2(4);
 
-// Where to set a triangle up costs more than to remember, `count` leaves `fill` a note of each in notes[], and
-// the list is in listed[], as long as that is: who finds no room there is not listed, and slower. Elsewhere
-// notes[] is the list.
-#define TAKES_NOTES (LANES == 32 && !FM_CLIPS && FM_WIDTH <= 8192 && FM_HEIGHT <= 8192)
+// How many the list may have: notes[] or, where that has notes, listed[].
 #if TAKES_NOTES
 const uint LARGE_MAX = TILES;
 #else

@@ -14,40 +14,50 @@ const fm_method_desc fm_method = {
     .family = FM_FAMILY_RASTERISER,
     .marker = FM_MARKER_DIAMOND,
     .options = {
-        { .name = "structure", .values = { "auto", "registers", "sorted-array" },
+        { .name = "structure", .values = { "auto", "registers", "sorted-array", "shared-array", "merge" },
           .help = "of the window of fragments that are not yet final" },
         { .name = "window", .values = { "0", "8", "4", "16", "32", "64", "128", "256" },
-          .help = "fragments that it holds; 0: 32 on wide subgroups, 8 on narrow, 16 alone" },
+          .help = "fragments that it holds; 0: 32 on wide subgroups, 8 on narrow, 16 alone, 64 where k "
+                  "is above 256. At most 32 in a shared-array, 64 in merge" },
         { .name = "used-buckets", .values = { "32", "1", "4", "8", "16" },
           .help = "of depth in a tile" },
         { .name = "chunk", .values = { "auto", "wide", "narrow", "alone" },
           .help = "depths by pixel, by triangle, without ballots; auto: by the subgroup" },
+        { .name = "blocks", .values = { "0", "1", "2" },
+          .help = "of a tile, each with bins of its own; 0: 2 with 32 lanes and over 4 triangles a "
+                  "pixel" },
+        { .name = "notes", .values = { "auto", "always", "never" },
+          .help = "whether count leaves a note of each triangle for fill; never where some are "
+                  "clipped; auto: with 32 lanes" },
     },
     .resources = {
-        { .name = "groups", .extent = { .constant = 5 } }, /* words: tile-k/layout.glsl */
         { .name = "fill_groups", .extent = { .constant = 3 } }, /* x y z of a dispatch */
         { .name = "store_groups", .extent = { .constant = 4 } }, /* ... and a count */
         { .name = "listed", .extent = { .per_tile = 1 } },
         { .name = "notes", .extent = { .per_triangle = 1 } },
-        { .name = "bins", .extent = { .per_tile = 66 } }, /* BLOCKS BIN_WORDS */
+        { .name = "bins", .extent = { .constant = 5, .per_tile = 66 } }, /* tile-k/layout.glsl */
         { .name = "pairs", .sizing = FM_SIZE_AFTER_TOTAL,
           .extent = { .per_total = 1, .total = "pairs" } },
     },
-    .totals = { { .name = "pairs", .resource = "groups", .index = 4, .pass = "reference" } },
+    .totals = { { .name = "pairs",
+                  .resource = "bins",
+                  .index = 4,
+                  .pass = "reference",
+                  .late = true } },
     .passes = {
-        { .name = "clear", .kind = FM_PASS_CLEAR, .writes = { "bins", "groups" } },
+        { .name = "clear", .kind = FM_PASS_CLEAR, .writes = { "bins" } },
         { .name = "clear-list", .kind = FM_PASS_CLEAR, .writes = { "store_groups" },
           .narrow_only = true },
         { .name = "count", .kind = FM_PASS_TRIANGLES, .shader = "count.glsl",
-          .writes = { "bins", "groups", "notes", "listed" } },
-        { .name = "count-large", .kind = FM_PASS_INDIRECT, .indirect = "groups",
-          .shader = "count_large.glsl", .reads = { "groups", "notes", "listed" },
+          .writes = { "bins", "notes", "listed" } },
+        { .name = "count-large", .kind = FM_PASS_INDIRECT, .indirect = "bins",
+          .shader = "count_large.glsl", .reads = { "notes", "listed" },
           .writes = { "bins" } },
         { .name = "reference", .kind = FM_PASS_TILES, .lanes = FM_GROUP_LANES, .lanes_narrow = 1,
           .shader = "reference.glsl",
-          .writes = { "bins", "groups", "fill_groups", "store_groups", "listed" } },
+          .writes = { "bins", "fill_groups", "store_groups", "listed" } },
         { .name = "fill", .kind = FM_PASS_INDIRECT, .indirect = "fill_groups",
-          .shader = "fill.glsl", .reads = { "groups", "fill_groups", "notes", "listed" },
+          .shader = "fill.glsl", .reads = { "fill_groups", "notes", "listed" },
           .writes = { "bins", "pairs" } },
         { .name = "background", .kind = FM_PASS_PIXELS, .shader = "background.glsl",
           .emits = true, .narrow_only = true },

@@ -10,7 +10,7 @@ uvec3 groups_of(uint count)
 
 void make_dispatches(uint tiles)
 {
-    uvec3 of_fill = groups_of(SMALL_GROUPS + min(groups[LARGE], LARGE_MAX)), of_store = groups_of(tiles);
+    uvec3 of_fill = groups_of(SMALL_GROUPS + min(bins[LARGE], LARGE_MAX)), of_store = groups_of(tiles);
     for (int i = 0; i < 3; ++i) {
         fill_groups[i] = of_fill[i];
         if (!LISTS_TILES)
@@ -30,30 +30,38 @@ void list_tile(uint tile)
 
 #if LANES == 32
 
-// A workgroup a tile, a lane a bucket of one of its two blocks.
+// A workgroup a tile, a lane a bucket of a block. Of an empty tile all words are 0, as cleared.
+shared uint filled[FM_GROUP_LANES / LANES]; // buckets of a block, one bit each
 shared uint sums[FM_GROUP_LANES];
 shared uint first_of_tile;
+const uint LANES_USED = TILE_BLOCKS * BUCKETS;
 
 void reference(uint tile)
 {
-    uint at = (tile * BLOCKS + fm_lane / BUCKETS) * BIN_WORDS, bucket = fm_lane % BUCKETS;
-    uint count = bins[at + bucket];
+    uint block = fm_lane / BUCKETS, bucket = fm_lane % BUCKETS, at = words_of(tile * TILE_BLOCKS + block);
+    bool is_used = fm_lane < LANES_USED;
+    uint count = is_used ? bins[at + bucket] : 0u;
+    if (tile == 0u && fm_lane == 0u)
+        make_dispatches(TILES);
+    filled[this_place() / uint(LANES)] = votes(count > 0u);
     sums[fm_lane] = count;
-    for (uint step = 1u; step < uint(FM_GROUP_LANES); step *= 2u) { // of this lane and all before it
+    barrier();
+    if ((filled[0] | filled[1]) == 0u)
+        return;
+    for (uint step = 1u; step < LANES_USED; step *= 2u) { // of this lane and all before it
         barrier();
         uint before = fm_lane >= step ? sums[fm_lane - step] : 0u;
         barrier();
         sums[fm_lane] += before;
     }
-    if (fm_lane == uint(FM_GROUP_LANES) - 1u) // each gets its own
-        first_of_tile = sums[fm_lane] > 0u ? atomicAdd(groups[ALLOCATED], sums[fm_lane]) : 0u;
+    if (fm_lane == LANES_USED - 1u) // each gets its own
+        first_of_tile = atomicAdd(bins[ALLOCATED], sums[fm_lane]);
     barrier();
     uint next = first_of_tile + sums[fm_lane] - count;
-    bins[at + bucket] = next;
-    if (bucket == 0u)
+    if (is_used)
+        bins[at + bucket] = next;
+    if (is_used && bucket == 0u)
         bins[at + BUCKETS] = next;
-    if (tile == 0u && fm_lane == 0u)
-        make_dispatches(TILES);
 }
 
 #else
@@ -61,12 +69,12 @@ void reference(uint tile)
 // How many pairs it has.
 uint take_stretch(uint bin)
 {
-    uint at = bin * BIN_WORDS, total = 0u, counts[BUCKETS];
+    uint at = words_of(bin), total = 0u, counts[BUCKETS];
     for (uint i = 0u; i < BUCKETS; ++i) { // unrolled: all are on their way at once
         counts[i] = bins[at + i];
         total += counts[i];
     }
-    uint next = total > 0u ? atomicAdd(groups[ALLOCATED], total) : 0u; // each gets its own
+    uint next = total > 0u ? atomicAdd(bins[ALLOCATED], total) : 0u; // each gets its own
     bins[at + BUCKETS] = next;
     for (uint i = 0u; i < BUCKETS; ++i) {
         bins[at + i] = next;
@@ -77,7 +85,10 @@ uint take_stretch(uint bin)
 
 void reference(uint tile)
 {
-    if (fm_lane == 0u && take_stretch(tile) > 0u && LISTS_TILES)
+    uint total = 0u;
+    for (uint i = 0u; i < TILE_BLOCKS && fm_lane == 0u; ++i)
+        total += take_stretch(tile * TILE_BLOCKS + i);
+    if (total > 0u && LISTS_TILES)
         list_tile(tile);
     if (tile == 0u && fm_lane == 0u)
         make_dispatches(TILES);

@@ -6,6 +6,8 @@
 //   bool is_short()              a fragment found no room in this round
 //   MAY_RESUME                   whether that can matter
 // The scan ends early, or at the list's end, or gives up, which is_cut tells.
+#include "tile-k/lanes.glsl"
+#define FM_NEAR_WAYS IS_WIDE
 #include "common/rasterise.glsl"
 #include "tile-k/layout.glsl"
 
@@ -17,12 +19,9 @@ bool is_short();
 bool is_cut = false;
 uint iterations = 0u; // of all loops of this subgroup
 
-// Mesa's software ends all loops of an invocation together, without a word; a GPU should never hang.
-#if FM_LOOP_LIMIT
+// Mesa's software ends all loops of an invocation together, without a word. Elsewhere they run as long as they have
+// to: each turn goes on in the list of pairs, or emits.
 const uint ITERATIONS_MAX = uint(FM_LOOP_LIMIT) / 8u * 7u; // some loops are not counted
-#else
-const uint ITERATIONS_MAX = 1u << 24;
-#endif
 
 #if LANES == 1 && FM_LOOP_LIMIT
 // Invocations that work alone share a vector with seven others there, and their loops add up: each goes on
@@ -52,7 +51,7 @@ void count_together()
 // Once an iteration; false: too many.
 bool may_go_on()
 {
-    is_cut = is_cut || ++iterations > ITERATIONS_MAX;
+    is_cut = FM_LOOP_LIMIT != 0 && (is_cut || ++iterations > ITERATIONS_MAX);
     return !is_cut;
 }
 
@@ -154,7 +153,7 @@ bool tile_of(uint i, out uint tile)
 // The bin of this lane's pixel.
 uint own_bin(uint tile)
 {
-    return tile * BLOCKS + this_place() / (uint(FM_GROUP_LANES) / BLOCKS);
+    return tile * TILE_BLOCKS + this_place() / (uint(FM_GROUP_LANES) / TILE_BLOCKS);
 }
 
 // The first bucket that ends behind the pair `at`, which is not before the bucket `from`.
@@ -194,7 +193,7 @@ bool look_at(inout uint chunk, inout uint pair, inout uint next, uint last, ivec
 // nothing that lies behind what was final when the first fragment found no room (is_short()).
 uint scan(uint bin, uint from, uvec2 pixel)
 {
-    uint ends = bin * BIN_WORDS, last = bins[ends + BUCKETS - 1u];
+    uint ends = words_of(bin), last = min(bins[ends + BUCKETS - 1u], fm_length_pairs);
     uint own_end = bins[ends + this_lane()];
     ivec2 corner = ivec2(pixel - pixel_in_tile(this_lane()));
     uint resume = from, chunk = from, bucket = 0u;
@@ -217,7 +216,7 @@ uint scan(uint bin, uint from, uvec2 pixel)
         ivec4 open = rect_of(wanting);
         if (MAY_RESUME && votes(reach_before >= bucket || is_short()) == 0u && chunk > from)
             resume = chunk - uint(LANES);
-        uint end = bins[ends + bucket];
+        uint end = min(bins[ends + bucket], last);
         FM_LOOP do { // chunks that begin in this bucket
             reach_before = max(reach_before, reach);
 #if LANES > 1

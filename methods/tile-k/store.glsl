@@ -5,8 +5,14 @@
 #define NO_KEY uvec2(0xFFFFFFFFu)
 #include "tile-k/lanes.glsl"
 // Measured (README): where registers hold the window, places cost; elsewhere rounds do.
-#if WINDOW != 0
+#if STRUCTURE == STRUCTURE_SHARED_ARRAY && (WINDOW == 0 || WINDOW > 32) // what shared memory has room for
+#define ROOM 32
+#elif STRUCTURE == STRUCTURE_MERGE && WINDOW > 64 // what registers have room for
+#define ROOM 64
+#elif WINDOW != 0
 #define ROOM WINDOW
+#elif K > 256 && (STRUCTURE == STRUCTURE_AUTO || STRUCTURE == STRUCTURE_SORTED_ARRAY) // a bucket may have many
+#define ROOM 64
 #elif LANES == 32
 #define ROOM 32
 #elif LANES == 1
@@ -28,8 +34,11 @@ bool comes_before(uvec2 a, uvec2 b) // by depth, then drawing order
 
 #include "tile-k/scan.glsl"
 
-// Measured (README): narrow subgroups run every branch; wide ones jump, which pays from 9 places on.
-#if STRUCTURE == STRUCTURE_REGISTERS || (STRUCTURE == STRUCTURE_AUTO && (LANES != 32 || CAPACITY <= 8))
+// Measured (README): narrow subgroups run every branch; wide ones jump, which pays sooner.
+#if STRUCTURE == STRUCTURE_MERGE
+#include "tile-k/window_merge.glsl"
+#elif STRUCTURE == STRUCTURE_REGISTERS \
+    || (STRUCTURE == STRUCTURE_AUTO && (CAPACITY <= 8 || (LANES != 32 && CAPACITY <= 16)))
 #include "tile-k/window_registers.glsl"
 #else
 #include "tile-k/window_sorted_array.glsl"
@@ -73,22 +82,31 @@ bool first_is_final()
     return emitted < uint(K) && is_final(window_first());
 }
 
+void let_fall(uvec2 key)
+{
+    if (comes_before(key, fallen))
+        fallen = key;
+}
+
 void advance(uint bucket)
 {
     now = bucket;
+    let_fall(window_settle());
+#if LANES == 32 // each for itself, then together: a vote in each turn took a sixth of the pass
+    FM_LOOP while (first_is_final())
+        emit_first();
+#else
     FM_LOOP do // the test is last: see bin.glsl
         if (first_is_final())
             emit_first();
     while (votes(first_is_final()) != 0u && may_go_on());
+#endif
 }
 
 void take(uvec2 key)
 {
-    if (has_more && !comes_before(key, resumes) && comes_before(key, fallen)) {
-        uvec2 out_of_room = window_insert(key);
-        if (comes_before(out_of_room, fallen))
-            fallen = out_of_room;
-    }
+    if (has_more && (!MAY_RESUME || !comes_before(key, resumes)) && comes_before(key, fallen))
+        let_fall(window_insert(key));
 }
 
 void store(uint i)
@@ -102,7 +120,7 @@ void store(uint i)
     resumes = uvec2(0u);
     if (is_inside)
         fm_emit_begin(own_pixel);
-    uint bin = own_bin(tile), first = bins[bin * BIN_WORDS + BUCKETS];
+    uint bin = own_bin(tile), first = bins[words_of(bin) + BUCKETS];
     has_more = is_inside;
     FM_LOOP while (votes(has_more) != 0u && may_go_on()) {
         fallen = NO_KEY;
@@ -111,6 +129,12 @@ void store(uint i)
         advance(BUCKETS); // all that is left is final
         has_more = has_more && emitted < uint(K) && fallen != NO_KEY;
     }
+#if FM_LOOP_LIMIT // whatever used the iterations up, counted or not: then no loop goes on
+    uint turns = 0u;
+    FM_LOOP while (turns < 8u + min(fm_length_pairs, 2u)) // as often as no compiler knows
+        ++turns;
+    is_cut = is_cut || turns < 8u;
+#endif
     if (is_inside && is_cut)
         fm_lost(own_pixel); // never silent
     if (is_inside)
