@@ -84,7 +84,7 @@ static void label_ours(fm_series *series, const fm_figure_job *at, const fm_case
     group_series_title(title, one, &free_columns);
     if (has_other_k(at, one))
         snprintf(k, sizeof k, ", k = %.0f", one->k);
-    snprintf(series->label, sizeof series->label, "%.60s%s%s", title, k,
+    snprintf(series->label, sizeof series->label, "%.56s%s%s", title, k,
              one->is_ok ? "" : " (wrong image)");
 }
 
