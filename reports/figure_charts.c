@@ -118,6 +118,16 @@ static size_t room_of(const fm_group *group)
     return group == NULL ? 0 : (group->count + 1) * (group->count + 1);
 }
 
+/* How much of the group's title holds for all that is drawn: its end names the feed. */
+static int title_bytes(const fm_group *group, const fm_figure_chart *from)
+{
+    const int most = 90;
+    const char *feed = strrchr(group->title, ',');
+    if (feed == NULL || feed - group->title > most || !name_list_names(&from->across, "feed"))
+        return most;
+    return (int)(feed - group->title);
+}
+
 fm_status figure_chart_make(fm_chart *chart, const fm_paper_figure *figure,
                             const fm_figure_chart *from, const fm_figure_source *own,
                             const fm_figure_source *reference, fm_error *err)
@@ -147,8 +157,8 @@ fm_status figure_chart_make(fm_chart *chart, const fm_paper_figure *figure,
                  figure->scenes.count, group->cases[0]->device,
                  group->workload[0] != '\0' ? "; " : "", group->workload);
     else
-        snprintf(chart->subtitle, sizeof chart->subtitle, "%.90s%s%.100s", group->title,
-                 group->workload[0] != '\0' ? "; " : "", group->workload);
+        snprintf(chart->subtitle, sizeof chart->subtitle, "%.*s%s%.100s", title_bytes(group, from),
+                 group->title, group->workload[0] != '\0' ? "; " : "", group->workload);
     if (from->kind == FM_FIGURE_LINES)
         status = figure_make_lines(&at, &other, xs, err);
     else if (from->kind == FM_FIGURE_TORNADO)
