@@ -115,15 +115,21 @@ static void summary_has_the_columns_of_the_design_in_order(void **state)
     text_free(&header);
 }
 
-static void summary_row_holds_medians_ratios_and_rates(void **state)
+static fm_results *with_two_launches(fake_plan *fake)
 {
-    (void)state;
-    fake_plan fake;
-    fm_results *results = created(&fake, 2);
+    fm_results *results = created(fake, 2);
     const double first[] = { 1.0, 2.0, 3.0, -1 }, second[] = { 3.0, 4.0, 5.0, -1 };
     const double steady[] = { 10, 10, 10 };
     add(results, 0, first, steady);
     add(results, 1, second, steady);
+    return results;
+}
+
+static void summary_row_holds_medians_ratios_and_rates(void **state)
+{
+    (void)state;
+    fake_plan fake;
+    fm_results *results = with_two_launches(&fake);
     assert_field(results, "schema", "1");
     assert_field(results, "device_name", "\"card, \"\"big\"\"\"");
     assert_field(results, "store_ms", "3");
@@ -145,11 +151,7 @@ static void times_floor_is_of_frames_where_they_have_one_timer(void **state)
 {
     (void)state;
     fake_plan fake;
-    fm_results *results = created(&fake, 2);
-    const double first[] = { 1.0, 2.0, 3.0, -1 }, second[] = { 3.0, 4.0, 5.0, -1 };
-    const double steady[] = { 10, 10, 10 };
-    add(results, 0, first, steady);
-    add(results, 1, second, steady);
+    fm_results *results = with_two_launches(&fake);
     fake.cases[0].settings.timers = FM_TIMERS_FRAME;
     assert_field(results, "times_floor", "3"); /* median of 4/2 and 8/2 */
     results_destroy(results);
