@@ -17,7 +17,8 @@ measure() { # X SCENE ARGUMENTS...
         return 1
     }
     awk -F, -v x="$x" 'NR == 1 { for (i = 1; i <= NF; i++) column[$i] = i; next }
-        { gsub(/"[^"]*"/, "-"); print x, $column["frame_ms"] }' "$out/summary.csv" | tee /dev/stderr
+        { gsub(/"[^"]*"/, "-"); row = x " " $column["frame_ms"]
+          print row; print row > "/dev/stderr" }' "$out/summary.csv"
 }
 
 judge() { # NAME FILE of lines "x ms"
