@@ -1,10 +1,10 @@
-#include "../generators/adversarial.h"
+#include "adversarial.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "../generators/frame_sequences.h"
-#include "stats.h"
+#include "base/stats.h"
+#include "frame_sequences.h"
 
 static uint32_t below(fm_adversary *s, uint32_t bound)
 {

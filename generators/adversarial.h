@@ -5,8 +5,8 @@
 #ifndef FM_GENERATORS_ADVERSARIAL_H
 #define FM_GENERATORS_ADVERSARIAL_H
 
-#include "frames.h"
-#include "settings.h"
+#include "model/settings.h"
+#include "scene/frames.h"
 
 /* What draw calls may be; zero: opaque depth writers with LESS, never two at a depth. */
 enum {

@@ -3,8 +3,8 @@
 #include <assert.h>
 #include <math.h>
 
-#include "shade.h"
-#include "stats.h"
+#include "base/stats.h"
+#include "scene/shade.h"
 #include "turns.h"
 
 void builder_begin(fm_builder *b, const fm_settings *settings, const fm_mesh_sink *sink,

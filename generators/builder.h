@@ -5,8 +5,8 @@
 #ifndef FM_BUILDER_H
 #define FM_BUILDER_H
 
-#include "scene.h"
-#include "vec3.h"
+#include "scene/scene.h"
+#include "scene/vec3.h"
 
 enum { BUILDER_BLOCK = 8192 };
 

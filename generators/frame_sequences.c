@@ -1,9 +1,9 @@
-#include "../generators/frame_sequences.h"
+#include "frame_sequences.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#include "stats.h"
+#include "base/stats.h"
 
 enum {
     SUB = FRAMES_SUBPIXELS,

@@ -10,8 +10,8 @@
 #ifndef FM_GENERATORS_FRAMES_H
 #define FM_GENERATORS_FRAMES_H
 
-#include "frames.h"
-#include "settings.h"
+#include "model/settings.h"
+#include "scene/frames.h"
 
 /* FM_INVALID: a viewport over FRAMES_SIDE_MAX; FM_NO_MEMORY. */
 fm_status frames_generate(fm_sequence **sequence, const fm_settings *settings, fm_error *err);

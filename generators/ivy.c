@@ -1,7 +1,7 @@
 /* Stand-in for the ivy: stems that climb the walls of a ruin and end in lobed leaves. Metres; y is
  * up. */
+#include "base/stats.h"
 #include "procedural.h"
-#include "stats.h"
 #include "turns.h"
 
 enum { STEMS = 760, POINTS = 64, LEAVES = 5, LOBES = 5, WALLS = 3 };

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene.h"
-#include "stats.h"
+#include "base/stats.h"
+#include "scene/scene.h"
 
 static const uint32_t all_live = 0xFFFFFFFFu;
 static const uint64_t max_order_bytes = UINT64_C(2) << 30;

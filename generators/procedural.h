@@ -3,12 +3,12 @@
  * All of them: coordinates come from integers, + - * / and square roots of doubles (turns.h where
  * an angle is needed), so that a scene is the same floats on every machine. Faces are flat, lit as
  * shade.h says. A stand-in has the properties that the papers print (scenes/README.md), which
- * tests/generators_test.c asserts; its shape is our own. */
+ * tests/generators/generators_test.c asserts; its shape is our own. */
 #ifndef FM_PROCEDURAL_H
 #define FM_PROCEDURAL_H
 
 #include "builder.h"
-#include "scene.h"
+#include "scene/scene.h"
 
 /* Fills what scene_place fills, and the counts: the mesh itself is left to procedural_stream. */
 fm_status procedural_generate(fm_scene *scene, fm_error *err);

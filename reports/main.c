@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "claims/verdicts.h"
-#include "report.h"
+#include "page/report.h"
 
 enum { EXIT_DONE = 0, EXIT_CLAIM = 1, EXIT_USAGE = 2, EXIT_DAMAGED = 8, FIGURES_MOST = 64 };
 

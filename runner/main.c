@@ -1,9 +1,9 @@
 /* The program: subcommands, the streams they talk to, exit codes. */
 #include <string.h>
 
+#include "base/text.h"
 #include "cli/cli.h"
-#include "text.h"
-#include "worker.h"
+#include "worker/worker.h"
 
 static const struct {
     const char *name, *title; /* what argp calls itself */

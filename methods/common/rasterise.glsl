@@ -1,5 +1,5 @@
-// The rasteriser of the feed triangles, for methods to include: runner/rasterise.h states its rules,
-// runner/rasterise.c is its twin, bit for bit.
+// The rasteriser of the feed triangles, for methods to include: runner/scene/rasterise.h states its rules,
+// runner/scene/rasterise.c is its twin, bit for bit.
 //   uint parts = fm_parts(triangle)      0: dropped; more than 1 only after clipping
 //   fm_set_up(t, part)                   false: covers no pixel
 //   fm_edges_at(t, corner)               of a block: inside is all three >= 0, + a x + b y from there

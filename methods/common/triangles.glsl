@@ -1,5 +1,5 @@
 // Feed triangles: the scene's triangles in drawing order, before clipping, at the positions that the
-// raster feed draws; the same numbers as its primitives. runner/triangles.c is the twin on the host,
+// raster feed draws; the same numbers as its primitives. runner/scene/triangles.c is the twin on the host,
 // bit for bit: hence `precise`, and sums written out.
 
 #ifdef FM_LAYERS

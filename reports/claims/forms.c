@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "draw/pictures.h"
 #include "judging.h"
-#include "pictures.h"
 
 const char *verdict_name(fm_verdict_kind kind)
 {

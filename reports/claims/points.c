@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "group.h"
+#include "base/text.h"
 #include "match.h"
-#include "text.h"
-#include "workload.h"
+#include "read/group.h"
+#include "read/workload.h"
 
 enum { SAMPLES_WANTED = 5 };
 /* What timings scatter by from process to process where a processor does the work. */

@@ -3,8 +3,8 @@
 #define FM_CLAIM_POINTS_H
 
 #include "claim.h"
-#include "interval.h"
-#include "result_files.h"
+#include "read/interval.h"
+#include "read/result_files.h"
 
 /* Where rows come from. */
 typedef struct fm_claim_rows {

@@ -11,7 +11,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "clock.h"
+#include "base/clock.h"
 
 enum { GRACE_S = 5, NOT_EXECUTED = 127 };
 extern char **environ;

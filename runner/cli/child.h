@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <sys/types.h>
 
-#include "error.h"
+#include "base/error.h"
 
 /* Path of a program in PATH. FM_UNSUPPORTED: it is not there, with Debian's package that has it. */
 fm_status child_find(char *path, size_t room_bytes, const char *name, const char *package,

@@ -4,7 +4,7 @@
 
 #include "cli.h"
 #include "device/device.h"
-#include "machine.h"
+#include "parent/machine.h"
 
 enum { KEY_JSON = 512, DEVICES_MAX = 32 };
 

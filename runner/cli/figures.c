@@ -2,8 +2,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/yaml_tree.h"
 #include "cli.h"
-#include "yaml_tree.h"
 
 static int compare_ids(const void *left, const void *right)
 {

@@ -3,7 +3,7 @@
 #include "cli.h"
 #include "device/device.h"
 #include "list_markdown.h"
-#include "manifest.h"
+#include "parent/manifest.h"
 
 enum { KEY_JSON = 512, KEY_MARKDOWN, KEY_PLUGINS, DEVICES_MAX = 32 };
 

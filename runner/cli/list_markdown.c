@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "plan.h"
+#include "plan/plan.h"
 
 static const char *const keeps_words[] = {
     [FM_KEEPS_K_NEAREST] = "k nearest",

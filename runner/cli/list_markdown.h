@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "plugin.h"
+#include "plugin/plugin.h"
 
 /* A row a method, from the descriptors alone; refused plugins are left out. */
 void list_markdown(FILE *out, const fm_plugin_list *plugins);

@@ -1,10 +1,10 @@
-#include "plan.h"
+#include "plan/plan.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "cli.h"
-#include "progress.h"
+#include "parent/progress.h"
 
 enum { KEY_JSON = 512 };
 

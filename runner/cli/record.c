@@ -7,7 +7,7 @@
 
 #include "child.h"
 #include "cli.h"
-#include "frame_stream.h"
+#include "scene/frame_stream.h"
 
 enum { KEY_FRAMES = 512, KEY_SKIP, KEY_SECONDS, KEY_SIZE, KEY_TRACE };
 enum { DISPLAY_WAIT_S = 20, REPLAY_WAIT_S = 3600, ENTRY_BYTES = 2 * FM_PATH_MAX_BYTES };

@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include "cli.h"
-#include "memory_table.h"
+#include "plan/memory_table.h"
 
 enum { KEY_SMOKE = 512, KEY_LARGE, KEY_REFERENCE, KEY_SEEDS };
 enum { SEEDS_MAX = 100 };

@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "device/device.h"
+#include "device.h"
 
 enum { LOG_MAX_BYTES = 1024, QUOTE_MAX_BYTES = 200 }; /* so that both fit into an fm_error */
 

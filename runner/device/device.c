@@ -1,12 +1,12 @@
-#include "device/device.h"
+#include "device.h"
 
 #include <string.h>
 
+#include "base/text.h"
 #include "device/dummy/dummy.h"
 #include "device/osmesa/osmesa.h"
-#include "device/tbr/device.h"
 #include "device/vulkan/vulkan.h"
-#include "text.h"
+#include "simulator/device.h"
 
 enum { DEVICE_ENTRIES_MAX = 32 };
 

@@ -15,7 +15,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "error.h"
+#include "base/error.h"
 #include "fragmark/method.h"
 
 typedef struct fm_device fm_device;

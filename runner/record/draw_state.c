@@ -1,4 +1,4 @@
-#include "record/draw_state.h"
+#include "draw_state.h"
 
 #include <math.h>
 #include <stdlib.h>

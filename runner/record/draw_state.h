@@ -7,8 +7,8 @@
 #ifndef FM_RECORD_DRAW_STATE_H
 #define FM_RECORD_DRAW_STATE_H
 
-#include "record/gl_calls.h"
-#include "record/polygons.h"
+#include "gl_calls.h"
+#include "polygons.h"
 
 /* Names beyond share the last place, and so one version. */
 enum { RECORD_TEXTURES = 16384, RECORD_PROGRAMS = 4096 };

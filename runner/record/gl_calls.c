@@ -1,4 +1,4 @@
-#include "record/gl_calls.h"
+#include "gl_calls.h"
 
 #include <dlfcn.h>
 #include <stddef.h>

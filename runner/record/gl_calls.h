@@ -11,7 +11,7 @@
 
 #include <GL/glext.h>
 
-#include "record/unseen_calls.h"
+#include "unseen_calls.h"
 
 #define RECORD_GL_CALLS(X)                                                                         \
     X(glActiveTexture)                                                                             \

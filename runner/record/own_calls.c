@@ -1,4 +1,4 @@
-#include "record/own_calls.h"
+#include "own_calls.h"
 
 #include <stddef.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 #ifndef FM_RECORD_OWN_CALLS_H
 #define FM_RECORD_OWN_CALLS_H
 
-#include "record/gl_calls.h"
+#include "gl_calls.h"
 
 /* NULL: not one of ours. */
 __GLXextFuncPtr own_call(const char *name);

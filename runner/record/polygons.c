@@ -1,4 +1,4 @@
-#include "record/polygons.h"
+#include "polygons.h"
 
 #include <math.h>
 #include <string.h>

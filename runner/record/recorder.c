@@ -14,9 +14,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "frame_stream.h"
-#include "record/draw_state.h"
-#include "record/own_calls.h"
+#include "draw_state.h"
+#include "own_calls.h"
+#include "scene/frame_stream.h"
 
 #define RECORDED __attribute__((visibility("default")))
 enum { FIRST_FLOATS = 1 << 22, MAX_FLOATS = 1 << 27, DEFAULT_FRAMES = 60 };

@@ -1,11 +1,11 @@
-#include "device/dummy/dummy.h"
+#include "dummy.h"
 
 #include <assert.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "text.h"
+#include "base/text.h"
 
 enum { DUMMY_RANGE_BYTES = 1 << 30 };
 

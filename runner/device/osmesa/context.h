@@ -6,7 +6,7 @@
 #define FM_OSMESA_CONTEXT_H
 
 #include "device/device.h"
-#include "device/osmesa/gl.h"
+#include "gl.h"
 
 /* The context needs some window to be current; nothing is ever drawn into it. */
 enum { OSMESA_WINDOW_PX = 4 };

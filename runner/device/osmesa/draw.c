@@ -1,7 +1,7 @@
 #include <assert.h>
 #include <string.h>
 
-#include "device/osmesa/context.h"
+#include "context.h"
 
 /* Attaches layer 0 of an array: nothing here draws into other layers of one. */
 static void attach(const fm_gl *gl, GLuint framebuffer, GLenum point,

@@ -1,7 +1,7 @@
 #include <assert.h>
 
-#include "clock.h"
-#include "device/osmesa/context.h"
+#include "base/clock.h"
+#include "context.h"
 
 fm_status osmesa_frame_begin(fm_device *device, fm_error *err)
 {

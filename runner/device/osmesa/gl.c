@@ -1,4 +1,4 @@
-#include "device/osmesa/gl.h"
+#include "gl.h"
 
 #include <stddef.h>
 #include <string.h>

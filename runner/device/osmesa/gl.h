@@ -10,7 +10,7 @@
 
 #include <GL/glext.h>
 
-#include "error.h"
+#include "base/error.h"
 
 #define FM_GL_FUNCTIONS(X)                                                                         \
     X(AttachShader)                                                                                \

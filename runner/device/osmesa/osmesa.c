@@ -1,11 +1,11 @@
-#include "device/osmesa/osmesa.h"
+#include "osmesa.h"
 
 #include <assert.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "device/osmesa/context.h"
+#include "context.h"
 
 /* llvmpipe ends all loops of an invocation after LP_MAX_TGSI_LOOP_ITERATIONS, without a word. */
 enum { LLVMPIPE_LOOP_LIMIT = 65535 };

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "device/osmesa/context.h"
+#include "context.h"
 
 enum { LOG_MAX_BYTES = 1024 };
 

@@ -1,7 +1,7 @@
 #include <assert.h>
 #include <stdlib.h>
 
-#include "device/osmesa/context.h"
+#include "context.h"
 
 static const osmesa_format formats[] = {
     [FM_FORMAT_NONE] = { .internal = GL_NONE },

@@ -1,4 +1,4 @@
-#include "device/osmesa/context.h"
+#include "context.h"
 
 /* FM_COMPARE_OFF is GL_ALWAYS for a depth that is written without a test. */
 static const GLenum compare_function[] = {

@@ -1,4 +1,4 @@
-#include "device/vulkan/context.h"
+#include "context.h"
 
 static const VkAccessFlags2 all_writes =
     VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |

@@ -1,7 +1,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "device/vulkan/context.h"
+#include "context.h"
 
 /* llvmpipe ends all loops of an invocation after LP_MAX_TGSI_LOOP_ITERATIONS, without a word. */
 enum { LAVAPIPE_LOOP_LIMIT = 65535 };

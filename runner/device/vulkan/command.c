@@ -1,7 +1,7 @@
 #include <assert.h>
 #include <string.h>
 
-#include "device/vulkan/context.h"
+#include "context.h"
 
 enum { UPDATE_MAX_BYTES = 65536 };
 

@@ -1,6 +1,6 @@
 #include <stdlib.h>
 
-#include "device/vulkan/context.h"
+#include "context.h"
 
 enum { SETS_PER_POOL = 256, DESCRIPTORS_PER_SET = 8 }; /* of each kind, on average */
 

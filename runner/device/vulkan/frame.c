@@ -2,8 +2,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "clock.h"
-#include "device/vulkan/context.h"
+#include "base/clock.h"
+#include "context.h"
 
 static fm_status create_pool(vulkan_query_pool *queries, const vulkan *self, VkQueryType type,
                              uint32_t capacity, fm_error *err)

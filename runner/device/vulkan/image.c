@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "device/vulkan/context.h"
+#include "context.h"
 
 enum { SAMPLES_MAX = 16 };
 

@@ -1,7 +1,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "device/vulkan/context.h"
+#include "context.h"
 
 #define VALIDATION_LAYER "VK_LAYER_KHRONOS_validation"
 

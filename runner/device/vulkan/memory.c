@@ -1,7 +1,7 @@
 #include <assert.h>
 #include <stdlib.h>
 
-#include "device/vulkan/context.h"
+#include "context.h"
 
 enum { STAGING_BYTES = 16 << 20 };
 

@@ -1,7 +1,7 @@
 #include <assert.h>
 #include <stdlib.h>
 
-#include "device/vulkan/context.h"
+#include "context.h"
 
 static VkDescriptorType descriptor_type(fm_binding_kind kind)
 {

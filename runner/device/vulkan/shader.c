@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "device/vulkan/context.h"
+#include "context.h"
 
 #define SOURCE_NAME "glsl" /* messages begin with it: "glsl:LINE: error: ..." */
 

@@ -1,4 +1,4 @@
-#include "device/vulkan/context.h"
+#include "context.h"
 
 /* FM_COMPARE_OFF is ALWAYS for a depth that is written without a test. */
 static const VkCompareOp compare_op[] = {

@@ -1,7 +1,7 @@
 #include <assert.h>
 #include <string.h>
 
-#include "device/vulkan/context.h"
+#include "context.h"
 
 /* A mapped buffer that the host does not cache is read word by word over the bus: from here on a
  * copy by the GPU is faster. */

@@ -1,12 +1,12 @@
-#include "device/vulkan/vulkan.h"
+#include "vulkan.h"
 
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "device/vulkan/context.h"
-#include "text.h"
+#include "base/text.h"
+#include "context.h"
 
 typedef struct result_traits {
     VkResult result;

@@ -57,7 +57,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "fragmark/status.h"
+#include "status.h"
 
 #define FM_ABI 4u
 

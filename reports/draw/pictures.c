@@ -1,0 +1,196 @@
+#include "pictures.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "base/image.h"
+#include "image_file.h"
+
+enum { SCALE_WIDTH_PX = 256, SCALE_HEIGHT_PX = 12 };
+
+static uint8_t srgb_byte(double linear)
+{
+    if (!(linear > 0.0))
+        return 0;
+    if (linear >= 1.0)
+        return 255;
+    double coded = linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1 / 2.4) - 0.055;
+    return (uint8_t)lround(coded * 255.0);
+}
+
+static size_t pixel_count(const fm_image *image)
+{
+    return (size_t)image->width_px * image->height_px;
+}
+
+static fm_status write_png(const char *path, const fm_image *image, fm_error *err)
+{
+    uint8_t *bytes = malloc(pixel_count(image) * 3);
+    if (bytes == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "%s", path);
+    for (size_t i = 0; i < pixel_count(image); i++) {
+        double behind = 1.0 - (double)image->rgba[4 * i + 3]; /* how much of the white shows */
+        for (size_t c = 0; c < 3; c++)
+            bytes[3 * i + c] = srgb_byte((double)image->rgba[4 * i + c] + behind);
+    }
+    fm_status status = image_file_write_rgb8(path, bytes, image->width_px, image->height_px, err);
+    free(bytes);
+    return status;
+}
+
+/* PNG and EXR of one picture under images/STEM. */
+static fm_status write_picture(const char *directory, const char *id, const char *kind,
+                               const fm_image *image, fm_error *err)
+{
+    char path[1280];
+    snprintf(path, sizeof path, "%s/images/%s%s.exr", directory, id, kind);
+    fm_status status =
+        image_file_write_rgba32f(path, image->rgba, image->width_px, image->height_px, err);
+    snprintf(path, sizeof path, "%s/images/%s%s.png", directory, id, kind);
+    return status != FM_OK ? status : write_png(path, image, err);
+}
+
+static fm_status write_heat_png(const char *path, const float *shares, const fm_image *size,
+                                fm_error *err)
+{
+    uint8_t *bytes = malloc(pixel_count(size) * 3);
+    if (bytes == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "%s", path);
+    fm_status status = FM_OK;
+    for (size_t row = 0; row < size->height_px && status == FM_OK; row++)
+        status = image_file_heat(bytes + row * size->width_px * 3, shares + row * size->width_px,
+                                 size->width_px, err);
+    if (status == FM_OK)
+        status = image_file_write_rgb8(path, bytes, size->width_px, size->height_px, err);
+    free(bytes);
+    return status;
+}
+
+/* Where a difference lies between FM_HEAT_LOW and FM_HEAT_HIGH, by decades. */
+static float heat_share(double difference)
+{
+    if (!isfinite(difference))
+        return 1.0F;
+    if (!(difference > FM_HEAT_LOW))
+        return 0.0F;
+    double share = log(difference / FM_HEAT_LOW) / log(FM_HEAT_HIGH / FM_HEAT_LOW);
+    return (float)fmin(share, 1.0);
+}
+
+/* Fills difference (absolute, by channel) and shares (of the largest channel). */
+static void subtract(fm_picture_set *set, fm_image *difference, float *shares,
+                     const fm_image *result, const fm_image *truth)
+{
+    size_t worst = 0;
+    set->max_difference = 0.0;
+    for (size_t i = 0; i < pixel_count(result); i++) {
+        double largest = 0.0;
+        for (size_t c = 4 * i; c < 4 * i + 4; c++) {
+            double apart = fabs((double)result->rgba[c] - (double)truth->rgba[c]);
+            apart = isnan(apart) ? INFINITY : apart;
+            difference->rgba[c] = (float)apart;
+            largest = fmax(largest, apart);
+        }
+        shares[i] = heat_share(largest);
+        worst += largest > FM_HEAT_LOW;
+        set->max_difference = fmax(set->max_difference, largest);
+    }
+    set->worst_share = (double)worst / (double)pixel_count(result);
+}
+
+static fm_status write_difference(fm_picture_set *set, const char *directory, const char *id,
+                                  const fm_image *result, const fm_image *truth, fm_error *err)
+{
+    char path[1280];
+    fm_image *difference = NULL;
+    float *shares = NULL;
+    if (result->width_px != truth->width_px || result->height_px != truth->height_px)
+        return fm_fail(err, FM_INVALID, "%s/images/%s: result is %u x %u, truth is %u x %u",
+                       directory, id, result->width_px, result->height_px, truth->width_px,
+                       truth->height_px);
+    fm_status status = image_create(&difference, result->width_px, result->height_px, err);
+    if (status != FM_OK)
+        goto out;
+    shares = calloc(pixel_count(result), sizeof *shares);
+    if (shares == NULL) {
+        status = fm_fail(err, FM_NO_MEMORY, "heat map of %s", id);
+        goto out;
+    }
+    subtract(set, difference, shares, result, truth);
+    snprintf(path, sizeof path, "%s/images/%s.difference.exr", directory, id);
+    status = image_file_write_rgba32f(path, difference->rgba, difference->width_px,
+                                      difference->height_px, err);
+    snprintf(path, sizeof path, "%s/images/%s.difference.png", directory, id);
+    if (status == FM_OK)
+        status = write_heat_png(path, shares, difference, err);
+out:
+    free(shares);
+    image_destroy(difference);
+    return status;
+}
+
+static fm_status read_picture(fm_image **image, const char *directory, const char *id,
+                              const char *kind, fm_error *err)
+{
+    char path[1280];
+    *image = NULL;
+    snprintf(path, sizeof path, "%s/images/%s%s.rgba32f", directory, id, kind);
+    if (access(path, F_OK) != 0)
+        return FM_OK;
+    fm_status status = image_read(image, path, err);
+    return status != FM_OK ? status : write_picture(directory, id, kind, *image, err);
+}
+
+fm_status pictures_write(fm_picture_set *set, const char *directory, const char *id, fm_error *err)
+{
+    fm_image *result = NULL, *truth = NULL;
+    *set = (fm_picture_set){ .max_difference = NAN };
+    fm_status status = read_picture(&result, directory, id, "", err);
+    if (status == FM_OK)
+        status = read_picture(&truth, directory, id, ".truth", err);
+    if (status == FM_OK && result != NULL && truth != NULL)
+        status = write_difference(set, directory, id, result, truth, err);
+    set->has_result = result != NULL;
+    set->has_truth = truth != NULL;
+    image_destroy(result);
+    image_destroy(truth);
+    return status;
+}
+
+static fm_status read_kept(fm_image **image, const char *directory, const char *id, fm_error *err)
+{
+    char path[1280];
+    snprintf(path, sizeof path, "%s/images/%s.rgba32f", directory, id);
+    if (access(path, F_OK) != 0)
+        return fm_fail(err, FM_UNSUPPORTED, "the picture of case %s was not kept", id);
+    return image_read(image, path, err);
+}
+
+fm_status pictures_compare(double *max_difference, const char *directory, const char *id,
+                           const char *other, fm_error *err)
+{
+    fm_image *left = NULL, *right = NULL;
+    fm_image_error apart = { 0 };
+    fm_status status = read_kept(&left, directory, id, err);
+    if (status == FM_OK)
+        status = read_kept(&right, directory, other, err);
+    if (status == FM_OK)
+        status = image_compare(&apart, left, right, err);
+    *max_difference = status == FM_OK ? apart.max_abs : NAN;
+    image_destroy(left);
+    image_destroy(right);
+    return status;
+}
+
+fm_status pictures_write_scale(const char *directory, fm_error *err)
+{
+    char path[1280];
+    float shares[SCALE_WIDTH_PX * SCALE_HEIGHT_PX];
+    for (int i = 0; i < SCALE_WIDTH_PX * SCALE_HEIGHT_PX; i++)
+        shares[i] = (float)(i % SCALE_WIDTH_PX) / (float)(SCALE_WIDTH_PX - 1);
+    fm_image size = { .width_px = SCALE_WIDTH_PX, .height_px = SCALE_HEIGHT_PX };
+    snprintf(path, sizeof path, "%s/images/heat-scale.png", directory);
+    return write_heat_png(path, shares, &size, err);
+}

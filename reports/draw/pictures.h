@@ -1,0 +1,33 @@
+/* images/: the raw pictures that the runner wrote become PNG, EXR and heat maps. */
+#ifndef FM_PICTURES_H
+#define FM_PICTURES_H
+
+#include <stdbool.h>
+
+#include "base/error.h"
+
+/* Heat maps show the largest difference over the four channels on one scale for all cases. */
+#define FM_HEAT_LOW  1e-4
+#define FM_HEAT_HIGH 1.0
+
+typedef struct fm_picture_set {
+    bool has_result, has_truth; /* heat map: both */
+    double max_difference;      /* over channels and pixels; NAN without truth */
+    double worst_share;         /* of pixels above FM_HEAT_LOW */
+} fm_picture_set;
+
+/* Reads images/ID.rgba32f and images/ID.truth.rgba32f under directory, where they are, and writes
+ * images/ID.png, ID.exr, ID.truth.png, ID.truth.exr, ID.difference.png and ID.difference.exr. PNGs
+ * are sRGB over white. A missing picture is no error; FM_INVALID: damaged, or of different sizes.
+ */
+fm_status pictures_write(fm_picture_set *set, const char *directory, const char *id, fm_error *err);
+
+/* The largest difference of a channel between the pictures of two cases. FM_UNSUPPORTED: one of
+ * them was not kept; FM_INVALID: damaged, or of different sizes. */
+fm_status pictures_compare(double *max_difference, const char *directory, const char *id,
+                           const char *other, fm_error *err);
+
+/* images/heat-scale.png: the colour bar of all heat maps, FM_HEAT_LOW at the left. */
+fm_status pictures_write_scale(const char *directory, fm_error *err);
+
+#endif

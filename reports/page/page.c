@@ -1,0 +1,251 @@
+#include "page.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "draw/look.h"
+#include "html.h"
+#include "read/group.h"
+
+static const char page_css[] = {
+#include "page_css.inc"
+};
+static const char page_js[] = {
+#include "page_js.inc"
+};
+
+enum { FEW_SAMPLES = 5 };
+
+static void add_fact(fm_text *page, const char *name, const char *value)
+{
+    if (value[0] == '\0')
+        return;
+    text_add(page, "<dt>");
+    html_add(page, name);
+    text_add(page, "</dt><dd>");
+    html_add(page, value);
+    text_add(page, "</dd>\n");
+}
+
+static size_t count_outcome(const fm_result_files *results, fm_case_status outcome)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < results->count; i++)
+        count += results->cases[i].outcome == outcome;
+    return count;
+}
+
+void page_begin(fm_text *page, const fm_result_files *results)
+{
+    const fm_provenance *manifest = results->manifest;
+    const size_t ok = count_outcome(results, FM_CASE_OK);
+    const size_t not_supported = count_outcome(results, FM_CASE_NOT_SUPPORTED);
+    const size_t wrong_image = count_outcome(results, FM_CASE_WRONG_IMAGE);
+    text_add(page,
+             "<!doctype html>\n<html lang=en><head><meta charset=utf-8>\n"
+             "<meta name=viewport content=\"width=device-width, initial-scale=1\">\n"
+             "<title>fragmark report</title>\n<style>\n%s</style></head><body>\n",
+             page_css);
+    text_add(page,
+             "<h1>fragmark report</h1>\n<p class=faint>%zu cases: %zu ok, %zu not supported, "
+             "%zu with a wrong image, %zu that failed or were skipped.</p>\n<dl>\n",
+             results->count, ok, not_supported, wrong_image,
+             results->count - ok - not_supported - wrong_image);
+    add_fact(page, "what", provenance_fact(manifest, "command"));
+    for (size_t i = 0; i < manifest->device_count; i++) {
+        char where[256];
+        snprintf(where, sizeof where, "%.60s: %.180s", manifest->devices[i].selector,
+                 manifest->devices[i].name);
+        add_fact(page, "where", where);
+    }
+    add_fact(page, "when", provenance_fact(manifest, "started"));
+    add_fact(page, "commit", provenance_fact(manifest, "git_commit"));
+    text_add(page, "</dl>\n");
+}
+
+void page_add_links(fm_text *page, const fm_name_list *papers)
+{
+    text_add(page, "<nav>");
+    for (size_t i = 0; i < papers->count; i++)
+        text_add(page, "<a href=\"#paper-%s\">%s</a>", papers->names[i],
+                 strcmp(papers->names[i], "none") == 0 ? "figures" : papers->names[i]);
+    text_add(page, "<a href=\"#pictures\">Pictures</a><a href=\"#speed\">Speed against error</a>"
+                   "<a href=\"#notes\">Notes</a><a href=\"#guide\">How to read</a><a "
+                   "href=\"#machine\">Machine and methods</a></nav>\n");
+}
+
+void page_add_guide(fm_text *page)
+{
+    static const char *const sentences[] = {
+        "<b>frame_ms</b> is the sum of a method's GPU passes (with timers=frame: one time for all, "
+        "and none of each), the median of all samples of all launches. A launch is a process of "
+        "its own; launches of all methods take turns, so that a "
+        "drift of the machine meets all alike.",
+        "<b>Intervals</b> hold the median with 95 % confidence (bootstrap over launches, then over "
+        "the samples of each). Two methods whose intervals overlap are not told apart by this run.",
+        "<b>The floor</b> is a method that consumes every fragment and stores none. <b>&times; "
+        "floor</b> is a method's store time over the floor's (with timers=frame: frame time over "
+        "frame time), measured in the same process: 1 is "
+        "as cheap as taking every fragment can be, and only who need not look at every fragment "
+        "(Z-buffer, culling, tile-k) comes below. Each feed has its floor. It compares between "
+        "machines where milliseconds "
+        "cannot.",
+        "<b>total_rmse</b> is the error of the picture against all fragments, sorted and "
+        "composited "
+        "in double precision; up to 1e-6 it is rounding, and called exact. It has two parts: "
+        "<b>truncation_rmse</b>, the cost of keeping only k fragments, which no method with that "
+        "k avoids, and <b>rmse</b>, what the method itself loses.",
+        "<b>missing, extra, misordered</b> count fragments, not pixels. A method that claims to be "
+        "exact and is not has the status wrong_image; for methods published as approximate or racy "
+        "a wrong picture is a result.",
+        "<b>The Pareto frontier</b> (&#9679; in tables) joins the cases that no other beats in "
+        "both time and error. "
+        "Controls do not compete for it.",
+    };
+    text_add(page, "<h2 id=guide>How to read this</h2>\n<ul>\n");
+    for (size_t i = 0; i < sizeof sentences / sizeof sentences[0]; i++)
+        text_add(page, "<li>%s</li>\n", sentences[i]);
+    text_add(page, "</ul>\n");
+}
+
+/* Titles of the methods for which `wanted` holds, each once; 0 when there is none. */
+static size_t add_titles(fm_text *page, const fm_result_files *results,
+                         bool (*wanted)(const fm_case_row *result))
+{
+    size_t count = 0;
+    for (size_t i = 0; i < results->count; i++) {
+        const fm_case_row *result = &results->cases[i];
+        bool is_new = wanted(result);
+        for (size_t j = 0; j < i && is_new; j++)
+            is_new = !wanted(&results->cases[j]) ||
+                     strcmp(results->cases[j].method, result->method) != 0;
+        if (!is_new)
+            continue;
+        text_add(page, count > 0 ? ", " : "");
+        html_add(page, result->look.title);
+        count++;
+    }
+    return count;
+}
+
+static bool hides_races(const fm_case_row *result)
+{
+    return result->look.is_racy && result->is_measured && result->is_software &&
+           strcmp(result->feed, "raster") == 0;
+}
+
+static bool has_few_samples(const fm_case_row *result)
+{
+    return result->is_measured && !result->is_simulated && result->samples < FEW_SAMPLES;
+}
+
+static bool is_single_launch(const fm_case_row *result)
+{
+    return result->is_measured && result->launches < 2;
+}
+
+static bool is_unstable(const fm_case_row *result)
+{
+    return result->is_measured && result->distinct_images > 1;
+}
+
+static void add_note(fm_text *page, const fm_result_files *results,
+                     bool (*wanted)(const fm_case_row *result), const char *sentence)
+{
+    fm_text titles = { 0 };
+    if (add_titles(&titles, results, wanted) > 0)
+        text_add(page, "<p class=note>%s (%s)</p>\n", sentence, titles.bytes);
+    page->failed |= titles.failed;
+    text_free(&titles);
+}
+
+static bool any_stand_in(const fm_result_files *results)
+{
+    for (size_t i = 0; i < results->count; i++)
+        if (group_is_stand_in(results->cases[i].scene))
+            return true;
+    return false;
+}
+
+void page_add_notes(fm_text *page, const fm_result_files *results)
+{
+    text_add(page, "<h2 id=notes>Notes on these results</h2>\n");
+    const size_t empty = page->length;
+    add_note(page, results, hides_races,
+             "On Mesa's software rasterisers the fragments of one pixel never run at the same time "
+             "on the raster feed, so that races cannot show here: use <code>--feed "
+             "compute-adjacent</code> or a GPU.");
+    add_note(page, results, has_few_samples,
+             "Fewer than 5 samples were kept: the times say little.");
+    add_note(page, results, is_single_launch,
+             "One launch only: intervals do not show how launches differ.");
+    add_note(page, results, is_unstable, "Launches drew different pictures of the same case.");
+    if (any_stand_in(results))
+        text_add(page, "<p>Scenes called a stand-in are generated with the properties that the "
+                       "paper prints; they are not the paper's models.</p>\n");
+    if (page->length == empty)
+        text_add(page, "<p>Nothing to note.</p>\n");
+}
+
+static void add_row(fm_text *page, const char *const *cells, size_t count)
+{
+    text_add(page, "<tr>");
+    for (size_t i = 0; i < count; i++) {
+        text_add(page, "<td>");
+        html_add(page, cells[i]);
+        text_add(page, "</td>");
+    }
+    text_add(page, "</tr>\n");
+}
+
+static void add_devices(fm_text *page, const fm_provenance *manifest)
+{
+    if (manifest->device_count == 0)
+        return;
+    text_add(page, "<div class=table><table><thead><tr><th>device</th><th>name</th><th>driver</th>"
+                   "<th>API</th><th>kind</th></tr></thead><tbody>\n");
+    for (size_t i = 0; i < manifest->device_count; i++) {
+        const fm_device_info *device = &manifest->devices[i];
+        const char *const cells[] = { device->selector, device->name, device->driver, device->api,
+                                      device->is_software ? "software" : "GPU" };
+        add_row(page, cells, sizeof cells / sizeof cells[0]);
+    }
+    text_add(page, "</tbody></table></div>\n");
+}
+
+static void add_methods(fm_text *page, const fm_provenance *manifest)
+{
+    if (manifest->method_count == 0)
+        return;
+    text_add(page, "<div class=table><table><thead><tr><th>method</th><th>id</th><th>version</th>"
+                   "<th>family</th><th>source</th></tr></thead><tbody>\n");
+    for (size_t i = 0; i < manifest->method_count; i++) {
+        const fm_method_info *method = &manifest->methods[i];
+        const char *const cells[] = { method->title, method->id, method->version,
+                                      look_family_name(method->family), method->citation };
+        add_row(page, cells, sizeof cells / sizeof cells[0]);
+    }
+    text_add(page, "</tbody></table></div>\n");
+}
+
+void page_add_machine(fm_text *page, const fm_result_files *results)
+{
+    const fm_provenance *manifest = results->manifest;
+    text_add(page, "<h2 id=machine>Machine and methods</h2>\n<dl>\n");
+    for (size_t i = 0; i < manifest->machine_count; i++)
+        add_fact(page, manifest->machine[i].name, manifest->machine[i].value);
+    for (size_t i = 0; i < manifest->fact_count; i++)
+        add_fact(page, manifest->facts[i].name, manifest->facts[i].value);
+    text_add(page, "</dl>\n");
+    add_devices(page, manifest);
+    add_methods(page, manifest);
+    text_add(page, "<p class=links>Data: <a href=\"summary.csv\">summary.csv</a>, "
+                   "<a href=\"samples.csv\">samples.csv</a>, "
+                   "<a href=\"manifest.json\">manifest.json</a></p>\n");
+}
+
+void page_end(fm_text *page)
+{
+    text_add(page, "<script>\n%s</script></body></html>\n", page_js);
+}

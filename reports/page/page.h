@@ -1,0 +1,21 @@
+/* The parts of report.html that are the same in all reports, or told by the manifest alone. */
+#ifndef FM_PAGE_H
+#define FM_PAGE_H
+
+#include "base/text.h"
+#include "draw/yaml_fields.h"
+#include "read/result_files.h"
+
+/* From <!doctype> to the title, what, where and when. */
+void page_begin(fm_text *page, const fm_result_files *results);
+/* Links to the parts; papers: ids of those that have a part. */
+void page_add_links(fm_text *page, const fm_name_list *papers);
+/* How to read: floor, times_floor, intervals, errors, frontier. */
+void page_add_guide(fm_text *page);
+/* What limits these results: races that this machine cannot show, failed cases, few samples. */
+void page_add_notes(fm_text *page, const fm_result_files *results);
+/* Machine, devices, methods with version and citation. */
+void page_add_machine(fm_text *page, const fm_result_files *results);
+void page_end(fm_text *page);
+
+#endif

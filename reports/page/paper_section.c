@@ -1,0 +1,143 @@
+#include "paper_section.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "draw/figure_charts.h"
+#include "html.h"
+#include "read/memory_rows.h"
+#include "verdict_table.h"
+
+static const struct {
+    const char *id, *title;
+} papers[] = {
+    { "kplus", "k+-buffer: Fragment Synchronized k-buffer (Vasilakis and Fudos, I3D 2014)" },
+    { "sbuffer", "S-buffer: Sparsity-aware Multi-fragment Rendering (Vasilakis and Fudos, "
+                 "Eurographics 2012)" },
+    { "occupancy", "Improving k-buffer methods via Occupancy Maps (Vasilakis and Papaioannou, "
+                   "Eurographics 2015)" },
+    { "evr", "Early Visibility Resolution (Anglada et al., HPCA 2019)" },
+};
+
+static const char *paper_title(const char *id)
+{
+    for (size_t i = 0; i < sizeof papers / sizeof papers[0]; i++)
+        if (strcmp(papers[i].id, id) == 0)
+            return papers[i].title;
+    return strcmp(id, "none") == 0 ? "Figures of no paper" : id;
+}
+
+/* Groups of one chart: cases of the figure that differ in its x only. */
+static fm_status make_groups(fm_groups *groups, const fm_result_files *results,
+                             const fm_paper_figure *figure, const fm_figure_chart *chart,
+                             fm_error *err)
+{
+    *groups = (fm_groups){ 0 };
+    if (results == NULL)
+        return FM_OK;
+    const fm_figure_cases cases = figure_cases(results, figure);
+    const fm_groups_desc desc = { .filter = figure_takes_case,
+                                  .context = &cases,
+                                  .free_columns = figure_free_columns(chart) };
+    return groups_make(groups, results, &desc, err);
+}
+
+/* Milliseconds of two machines in one chart say little: ratios only, unless it is asked for. */
+static bool shows_reference(const fm_writer *to, const fm_figure_chart *chart)
+{
+    return chart->ratio_to != NULL || to->desc->draws_reference;
+}
+
+static fm_status add_charts(fm_writer *to, const fm_paper_figure *figure,
+                            const fm_figure_chart *from, size_t *drawn)
+{
+    fm_groups groups, reference_groups;
+    const fm_result_files *reference = shows_reference(to, from) ? to->desc->reference : NULL;
+    fm_status status = make_groups(&groups, to->results, figure, from, to->err);
+    if (status != FM_OK)
+        return status;
+    status = make_groups(&reference_groups, reference, figure, from, to->err);
+    for (size_t i = 0; i < groups.count && status == FM_OK; i++) {
+        char name[256];
+        fm_chart chart;
+        const fm_group *group = &groups.groups[i];
+        const fm_figure_source own = { to->results, group };
+        const fm_figure_source other = { reference,
+                                         figure_reference_group(&reference_groups, group, from) };
+        snprintf(name, sizeof name, "%.60s-%.40s-%.120s", figure->id, from->id, group->name);
+        status = figure_chart_make(&chart, figure, from, &own, &other, to->err);
+        status = writer_add_chart(to, &chart, status, name);
+        (*drawn)++;
+    }
+    groups_free(&groups);
+    groups_free(&reference_groups);
+    return status;
+}
+
+static void add_deviations(fm_text *page, const fm_paper_figure *figure)
+{
+    if (figure->deviations.count == 0)
+        return;
+    text_add(page, "<p>Deviations:</p>\n<ul>\n");
+    for (size_t i = 0; i < figure->deviations.count; i++) {
+        text_add(page, "<li>");
+        html_add(page, figure->deviations.names[i]);
+        text_add(page, "</li>\n");
+    }
+    text_add(page, "</ul>\n");
+}
+
+static fm_status add_figure(fm_writer *to, const fm_paper_figure *figure)
+{
+    fm_status status = FM_OK;
+    size_t drawn = 0;
+    text_add(&to->page, "<h3 id=\"figure-%s\">", figure->id);
+    html_add(&to->page, figure->title);
+    text_add(&to->page, "</h3>\n<p class=faint>");
+    html_add(&to->page, figure->source);
+    text_add(&to->page,
+             "</p>\n<p class=links>Data: <a href=\"summary.csv\">summary.csv</a> "
+             "<a href=\"samples.csv\">samples.csv</a>%s</p>\n",
+             figure->has_table ? " <a href=\"memory.csv\">memory.csv</a>" : "");
+    for (size_t i = 0; i < figure->chart_count && status == FM_OK; i++)
+        status = add_charts(to, figure, &figure->charts[i], &drawn);
+    if (drawn == 0 && figure->chart_count > 0)
+        text_add(&to->page, "<p class=note>No case of this run belongs to this figure.</p>\n");
+    memory_rows_add(&to->page, to->results->memory, figure->id);
+    add_deviations(&to->page, figure);
+    return status;
+}
+
+static fm_status add_paper(fm_writer *to, const char *paper)
+{
+    const fm_report_desc *desc = to->desc;
+    fm_status status = FM_OK;
+    text_add(&to->page, "<h2 id=\"paper-");
+    html_add(&to->page, paper);
+    text_add(&to->page, "\">");
+    html_add(&to->page, paper_title(paper));
+    text_add(&to->page, "</h2>\n");
+    verdict_table_add(&to->page, desc->verdicts, paper);
+    for (size_t i = 0; i < desc->figure_count && status == FM_OK; i++)
+        if (strcmp(desc->figures[i]->paper, paper) == 0)
+            status = add_figure(to, desc->figures[i]);
+    return status;
+}
+
+fm_name_list paper_sections_names(const fm_report_desc *desc)
+{
+    fm_name_list list = { 0 };
+    for (size_t i = 0; i < desc->figure_count && list.count < FM_NAME_LIST; i++)
+        if (!name_list_names(&list, desc->figures[i]->paper))
+            list.names[list.count++] = desc->figures[i]->paper;
+    return list;
+}
+
+fm_status paper_sections_add(fm_writer *to)
+{
+    const fm_name_list names = paper_sections_names(to->desc);
+    fm_status status = FM_OK;
+    for (size_t i = 0; i < names.count && status == FM_OK; i++)
+        status = add_paper(to, names.names[i]);
+    return status;
+}

@@ -1,0 +1,48 @@
+/* Cases that may stand in one chart: same scene, workload, device and feed. */
+#ifndef FM_GROUP_H
+#define FM_GROUP_H
+
+#include "draw/yaml_fields.h"
+#include "result_files.h"
+
+typedef struct fm_group {
+    const fm_case_row **cases; /* by family, method, options, k; controls last; owned */
+    size_t count;
+    char name[128];     /* of the group in file names: "layers-vulkan-raster", unique in a list */
+    char title[192];    /* "layers, vulkan: llvmpipe, raster" */
+    char workload[200]; /* "854 x 480 pixels, n = 128, pixel density 0.25, ..." */
+} fm_group;
+
+typedef struct fm_groups {
+    fm_group *groups;
+    size_t count;
+} fm_groups;
+
+typedef bool (*fm_case_filter)(const fm_case_row *result, const void *context);
+
+typedef struct fm_groups_desc {
+    fm_case_filter filter;     /* which cases to take; NULL: all */
+    const void *context;       /* of the filter */
+    fm_name_list free_columns; /* in which cases of a group may differ, beside k */
+} fm_groups_desc;
+
+fm_status groups_make(fm_groups *groups, const fm_result_files *results, const fm_groups_desc *desc,
+                      fm_error *err);
+void groups_free(fm_groups *groups);
+
+/* "K+B-Array", with the options that tell two series of one method apart, but for those of
+ * `without`, which may be NULL. */
+void group_series_title(char title[96], const fm_case_row *result, const fm_name_list *without);
+/* Procedural scenes with the printed properties of models that the papers do not share. */
+bool group_is_stand_in(const char *scene);
+/* Same method, version and options: points of one line. */
+bool group_same_series(const fm_case_row *a, const fm_case_row *b);
+/* Equal in the options that belong to the scene, or to the method, but for those of `without`. */
+bool group_same_scene_options(const fm_case_row *a, const fm_case_row *b,
+                              const fm_name_list *without);
+bool group_same_own_options(const fm_case_row *a, const fm_case_row *b,
+                            const fm_name_list *without);
+/* Whether k matters: the method has several k, or the group has only one. */
+bool group_uses_k(const fm_group *group, const fm_case_row *result);
+
+#endif

@@ -1,0 +1,56 @@
+/* manifest.json: what ran, where, and how methods look. Missing fields are empty, unknown ones are
+ * ignored; a file that is not a JSON object, or whose parts have the wrong shape, is damaged. */
+#ifndef FM_PROVENANCE_H
+#define FM_PROVENANCE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/error.h"
+#include "fragmark/method.h"
+
+typedef struct fm_method_info {
+    const char *id, *title, *citation, *version;
+    fm_family family;
+    fm_marker marker;
+    bool is_dashed;
+    bool is_racy, is_exact, is_control, is_approximate;
+} fm_method_info;
+
+typedef struct fm_device_info {
+    const char *selector, *name, *driver, *api;
+    bool is_software;
+} fm_device_info;
+
+/* A line of "machine", or of the head of the manifest, as text. */
+typedef struct fm_fact {
+    const char *name;
+    char value[512];
+} fm_fact;
+
+typedef struct fm_provenance {
+    fm_method_info *methods;
+    size_t method_count;
+    fm_device_info *devices;
+    size_t device_count;
+    fm_fact *machine; /* machine's scalars, in the file's order */
+    size_t machine_count;
+    fm_fact *facts; /* the head's scalars: command, git_commit, seed, started, schema, ... */
+    size_t fact_count;
+    const char **figures; /* ids of the figures that the run was made for */
+    size_t figure_count;
+    void *json; /* holds all texts */
+} fm_provenance;
+
+/* FM_IO, FM_NO_MEMORY; FM_INVALID: damaged, naming file and line or field. */
+fm_status provenance_read(fm_provenance **manifest, const char *path, fm_error *err);
+void provenance_close(fm_provenance *manifest);
+
+const fm_method_info *provenance_method(const fm_provenance *manifest,
+                                        const char *id); /* or NULL */
+/* The device of a selector, else of that name, else NULL. */
+const fm_device_info *provenance_device(const fm_provenance *manifest, const char *selector,
+                                        const char *name);
+const char *provenance_fact(const fm_provenance *manifest, const char *name); /* "": none */
+
+#endif

@@ -1,0 +1,39 @@
+/* CSV as RFC 4180 has it, read strictly: a damaged result file must not become a wrong chart. */
+#ifndef FM_TABLE_H
+#define FM_TABLE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/error.h"
+
+enum { FM_TABLE_COLUMNS = 256, FM_TABLE_CELL_BYTES = 65536 };
+#define FM_TABLE_BYTES     ((size_t)1 << 30)
+#define FM_TABLE_NO_COLUMN SIZE_MAX
+
+typedef struct fm_table {
+    char path[1024]; /* for messages */
+    size_t column_count, row_count;
+    const char **names; /* [column_count] */
+    const char **cells; /* [row_count][column_count], "" when empty */
+    uint32_t *lines;    /* [row_count]: where each row starts in the file */
+    char *bytes;        /* holds all texts */
+} fm_table;
+
+/* Reads the file; its first row names the columns. LF and CRLF end rows; a last row may lack its
+ * end. FM_IO: cannot be read. FM_INVALID, naming file and line: no header, repeated or empty column
+ * names, a row with more or fewer cells than the header, quotes out of place or left open, NUL
+ * bytes, cells above FM_TABLE_CELL_BYTES. The caller closes *table. */
+fm_status table_read(fm_table **table, const char *path, fm_error *err);
+void table_close(fm_table *table);
+
+/* FM_TABLE_NO_COLUMN: no such column. */
+size_t table_column(const fm_table *table, const char *name);
+const char *table_cell(const fm_table *table, size_t row, size_t column); /* no column: "" */
+
+/* A number; empty is NAN, and "inf", "-inf" and "nan" are what they say. FM_INVALID, naming file,
+ * line and column, for all else. */
+fm_status table_number(double *value, const fm_table *table, size_t row, size_t column,
+                       fm_error *err);
+
+#endif

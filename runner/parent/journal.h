@@ -1,0 +1,51 @@
+/* journal.jsonl: what a killed run resumes from. One JSON object a line, flushed to disk:
+ *   {"event":"plan","plan":HASH,"run_id":ID,"started":UTC}   first
+ *   {"event":"begin","case":ID,"launch":0}                   before a launch
+ *   {"event":"end","case":ID,"launch":0,"result":{...}}      after it
+ *   {"event":"stop","case":ID,"launch":0}                    the user stopped it: never began
+ * The file is locked while it is open, so that two runs cannot share a directory. */
+#ifndef FM_JOURNAL_H
+#define FM_JOURNAL_H
+
+#include <jansson.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/error.h"
+
+typedef struct fm_journal fm_journal;
+
+typedef enum fm_journal_event {
+    FM_JOURNAL_BEGIN,
+    FM_JOURNAL_END,
+    FM_JOURNAL_STOP,
+    FM_JOURNAL_EVENT_COUNT
+} fm_journal_event;
+
+/* What the lines of an earlier run tell, in order. */
+typedef struct fm_journal_reader {
+    /* result is borrowed; NULL but for FM_JOURNAL_END. FM_INVALID: no such case or launch. */
+    fm_status (*line)(void *context, fm_journal_event event, const char *case_id, uint32_t launch,
+                      const json_t *result, fm_error *err);
+    void *context;
+} fm_journal_reader;
+
+/* Opens or makes DIRECTORY/journal.jsonl.
+ * FM_INVALID: in use by another run, or of another plan. FM_IO: damaged, foreign or not writable;
+ * *is_damaged tells the first two. A torn last line, which a killed run leaves, is cut off. */
+fm_status journal_open(fm_journal **journal, const char *directory, const char *plan_hash,
+                       bool *is_damaged, fm_error *err);
+/* Tells the reader all launches of the run so far; once, before the first journal_write. */
+fm_status journal_replay(fm_journal *journal, const fm_journal_reader *reader, bool *is_damaged,
+                         fm_error *err);
+void journal_close(fm_journal *journal);
+
+/* Adds a line and waits until it is on disk. result: FM_JOURNAL_END only; borrowed. */
+fm_status journal_write(fm_journal *journal, fm_journal_event event, const char *case_id,
+                        uint32_t launch, json_t *result, fm_error *err);
+
+/* Of the run, not of this process: a resumed run keeps both. */
+const char *journal_run_id(const fm_journal *journal);
+const char *journal_started(const fm_journal *journal); /* "2026-01-31T12:00:00Z" */
+
+#endif

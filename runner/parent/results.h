@@ -1,0 +1,98 @@
+/* What was measured so far, and its two tables: samples.csv grows by whole launches, summary.csv is
+ * written anew, atomically, whenever a case is finished. */
+#ifndef FM_RESULTS_H
+#define FM_RESULTS_H
+
+#include <jansson.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "model/outcome.h"
+#include "plan/plan.h"
+
+/* Metrics of samples that statistics use; all others only pass into samples.csv. */
+typedef enum fm_sample_metric {
+    FM_SAMPLE_FRAME_MS,
+    FM_SAMPLE_FRAME_WALL_MS,
+    FM_SAMPLE_CLEAR_MS,
+    FM_SAMPLE_COUNT_MS,
+    FM_SAMPLE_REFERENCE_MS,
+    FM_SAMPLE_STORE_MS,
+    FM_SAMPLE_RESOLVE_MS,
+    FM_SAMPLE_FLOOR_STORE_MS,
+    FM_SAMPLE_FLOOR_FRAME_MS,
+    FM_SAMPLE_CANARY_NS,
+    FM_SAMPLE_METRIC_COUNT
+} fm_sample_metric;
+
+typedef struct fm_kept_sample {
+    double value;
+    uint32_t launch, frame;
+    fm_sample_metric metric;
+} fm_kept_sample;
+
+typedef struct fm_launch_state {
+    uint32_t begins; /* since the last end or stop */
+    bool is_done;
+    char image_hash[17];
+} fm_launch_state;
+
+typedef struct fm_case_result {
+    fm_case_status status;     /* the worst so far */
+    char message[2048];        /* of that status */
+    fm_launch_state *launches; /* [plan->launches] */
+    uint32_t done;             /* launches that ended */
+    fm_kept_sample *samples;
+    size_t sample_count, sample_room;
+    json_t *metrics;  /* of the checked launch; NULL before it */
+    json_t *modelled; /* the same */
+    char device_name[128], device_driver[128], device_api[64];
+    bool has_gpu_clock, is_software;
+    char *row; /* of summary.csv, kept until the case changes */
+} fm_case_result;
+
+typedef struct fm_results {
+    const fm_plan *plan;
+    const fm_plugin_list *plugins;
+    fm_case_result *cases; /* [plan->count] */
+    char summary_path[FM_PATH_MAX_BYTES], samples_path[FM_PATH_MAX_BYTES];
+    char run_id[17];
+    int samples_fd;
+} fm_results;
+
+/* plan and plugins are borrowed for the life of the results. Cases that are not to be launched
+ * have their status at once. samples.csv is begun anew. */
+fm_status results_create(fm_results **results, const fm_plan *plan, const fm_plugin_list *plugins,
+                         const char *directory, const char *run_id, fm_error *err);
+void results_destroy(fm_results *results);
+
+/* Takes one launch's result (worker.h): status, samples, metrics; appends its rows. */
+fm_status results_add(fm_results *results, size_t case_index, uint32_t launch, const json_t *result,
+                      fm_error *err);
+
+/* No further launch of this case is wanted. */
+bool results_is_finished(const fm_results *results, size_t case_index);
+
+/* Writes summary.csv: a row for each case that was launched or is not to be. */
+fm_status results_write_summary(fm_results *results, fm_error *err);
+
+/* Once, at the end of a run. Slow clocks are known only now: samples off full clock are marked in
+ * samples.csv, by a row with metric off_clock for their launch and frame, and all rows of
+ * summary.csv are renewed without them. Cases that had no turn get a row with status skipped. */
+fm_status results_end(fm_results *results, fm_error *err);
+
+/* Adds text as an RFC 4180 field. */
+void csv_add(fm_text *text, const char *field);
+/* Adds a number with nine digits; nothing for NAN, "inf" for infinity. */
+void csv_add_real(fm_text *text, double value);
+/* Whether summary.csv has a column of this name. */
+bool summary_has_column(const char *name);
+/* Sets is_off_clock[launch * frames + frame] of each sample of the case whose canary was slow. */
+void summary_off_clock(bool *is_off_clock, const fm_results *results, size_t case_index);
+/* The names of the columns, and one row; both with their end of line. */
+void summary_header(fm_text *text);
+void summary_row(fm_text *text, const fm_results *results, size_t case_index);
+
+#endif

@@ -1,0 +1,44 @@
+/* The parent of a run: plans, launches workers in seeded rounds, keeps the journal, writes
+ * manifest.json, samples.csv, summary.csv and images/ in a directory; resumable at any moment.
+ *
+ * In DIRECTORY/work lie the request, result and output of launches that went wrong, in
+ * DIRECTORY/truth what launches are compared with, until the run is done. */
+#ifndef FM_RUN_H
+#define FM_RUN_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include "base/error.h"
+#include "plan/plan.h"
+
+typedef struct fm_run_desc {
+    const char *directory; /* made; one that holds another run's journal is FM_INVALID */
+    const char *command;   /* the command line, for the manifest */
+    bool validation;       /* open devices with API validation */
+    bool no_timers;
+    bool no_images;
+    uint32_t timeout_s;         /* of one launch; 0 is 600 */
+    uint64_t memory_bytes;      /* address-space limit of one launch; 0: none */
+    FILE *progress;             /* NULL: silent */
+    const char *worker;         /* executed as `WORKER worker REQUEST RESULT`; NULL: this program */
+    const char *const *figures; /* ids that this run is for, for the report; ends with NULL */
+} fm_run_desc;
+
+/* Outcome of a run, for the exit code. */
+typedef struct fm_run_result {
+    uint32_t ok, not_supported, failed;
+    uint32_t skipped; /* not finished, because the run was interrupted */
+    int stop_signal;  /* SIGINT or SIGTERM that interrupted it, or 0 */
+    bool is_damaged;  /* FM_IO because the journal is damaged or foreign */
+} fm_run_result;
+
+/* Runs all launches that an earlier run in the same directory has not finished.
+ * FM_INVALID: nothing was run: no floor method, the directory belongs to another plan, is in use,
+ * or cannot be made. FM_IO: files cannot be written, or is_damaged. The run can be continued after
+ * every error but the damage. */
+fm_status run_cases(fm_run_result *result, const fm_plan *plan, const fm_plugin_list *plugins,
+                    const fm_run_desc *desc, fm_error *err);
+
+#endif

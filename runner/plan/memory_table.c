@@ -1,0 +1,267 @@
+#include "memory_table.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/yaml_tree.h"
+#include "model/formula.h"
+#include "parent/results.h"
+
+static const double mib = 1048576.0;
+
+/* What the functions below share. */
+typedef struct table_job {
+    const char *path, *figure;
+    const fm_yaml *columns, *rows;
+    double added_per_pixel;
+    fm_text *csv;
+    fm_memory_verdicts *verdicts;
+    fm_error *err;
+} table_job;
+
+static fm_status read_number(double *number, const fm_yaml *map, const char *key, bool needed,
+                             const table_job *job)
+{
+    const fm_yaml *value = yaml_tree_find(map, key);
+    *number = 0;
+    if (value == NULL && !needed)
+        return FM_OK;
+    if (value == NULL || value->kind != FM_YAML_SCALAR || !text_to_double(number, value->text))
+        return fm_fail(job->err, FM_INVALID, "%s:%u: '%s': a number is expected", job->path,
+                       value != NULL ? value->line : map->line, key);
+    return FM_OK;
+}
+
+static fm_status read_text(const char **text, const fm_yaml *map, const char *key, bool needed,
+                           const table_job *job)
+{
+    const fm_yaml *value = yaml_tree_find(map, key);
+    *text = "";
+    if (value == NULL && !needed)
+        return FM_OK;
+    if (value == NULL || value->kind != FM_YAML_SCALAR)
+        return fm_fail(job->err, FM_INVALID, "%s:%u: '%s': a text is expected", job->path,
+                       value != NULL ? value->line : map->line, key);
+    *text = value->text;
+    return FM_OK;
+}
+
+static fm_status read_list(const fm_yaml **list, const fm_yaml *map, const char *key,
+                           const table_job *job)
+{
+    *list = yaml_tree_find(map, key);
+    if (*list == NULL || (*list)->kind != FM_YAML_LIST)
+        return fm_fail(job->err, FM_INVALID, "%s:%u: '%s': a list is expected", job->path,
+                       *list != NULL ? (*list)->line : map->line, key);
+    return FM_OK;
+}
+
+static const char *default_option(const fm_workload *workload, const char *name)
+{
+    const fm_method_desc *method = workload->runner;
+    for (int i = 0; i < FM_MAX_OPTIONS && method->options[i].name != NULL; i++)
+        if (strcmp(method->options[i].name, name) == 0)
+            return method->options[i].values[0];
+    return NULL;
+}
+
+static fm_status read_whole(uint64_t *number, const fm_yaml *map, const char *key, uint64_t most,
+                            const table_job *job)
+{
+    const fm_yaml *value = yaml_tree_find(map, key);
+    if (value == NULL || value->kind != FM_YAML_SCALAR || !text_to_u64(number, value->text) ||
+        *number > most)
+        return fm_fail(job->err, FM_INVALID, "%s:%u: '%s': a whole number up to %llu is expected",
+                       job->path, value != NULL ? value->line : map->line, key,
+                       (unsigned long long)most);
+    return FM_OK;
+}
+
+/* The workload of a column, but for its totals. */
+static fm_status read_workload(fm_workload *workload, const fm_yaml *column, const table_job *job)
+{
+    uint64_t width = 0, height = 0, k = 0, n = 0;
+    fm_status status = read_whole(&width, column, "width_px", 65536, job);
+    if (status == FM_OK)
+        status = read_whole(&height, column, "height_px", 65536, job);
+    if (status == FM_OK)
+        status = read_whole(&k, column, "k", 4096, job);
+    if (status == FM_OK)
+        status = read_whole(&n, column, "n", 65536, job);
+    if (status == FM_OK)
+        status = read_whole(&workload->fragments, column, "fragments", UINT64_MAX / 2, job);
+    workload->width_px = (uint32_t)width;
+    workload->height_px = (uint32_t)height;
+    workload->k = (uint32_t)k;
+    workload->n = (uint32_t)n;
+    return status;
+}
+
+/* Totals that size a buffer are all fragments, unless the column has them by name. */
+static fm_status read_totals(uint64_t totals[FM_MAX_TOTALS], const fm_yaml *column,
+                             const fm_workload *workload, const table_job *job)
+{
+    fm_status status = FM_OK;
+    const fm_method_desc *method = workload->runner;
+    const fm_yaml *named = yaml_tree_find(column, "totals");
+    for (size_t i = 0; i < FM_MAX_TOTALS && status == FM_OK; i++) {
+        const char *name = method->totals[i].name;
+        totals[i] = workload->fragments;
+        if (name != NULL && named != NULL && yaml_tree_find(named, name) != NULL)
+            status = read_whole(&totals[i], named, name, UINT64_MAX / 2, job);
+    }
+    return status;
+}
+
+static bool list_has(const fm_yaml *list, const char *text)
+{
+    for (size_t i = 0; list != NULL && i < list->count; i++)
+        if (list->items[i].text != NULL && strcmp(list->items[i].text, text) == 0)
+            return true;
+    return false;
+}
+
+/* Ours with as many decimals as the printed value has. */
+static void print_alike(char text[32], double value, const char *printed)
+{
+    const char *point = strchr(printed, '.');
+    const size_t decimals = point != NULL ? strlen(point + 1) : 0;
+    snprintf(text, 32, "%.*f", decimals < 9 ? (int)decimals : 9, value);
+}
+
+static const char *judge(fm_memory_verdicts *verdicts, double value, const char *printed,
+                         bool is_known_error)
+{
+    char alike[32];
+    print_alike(alike, value, printed);
+    if (printed[0] == '\0')
+        return "not printed";
+    if (strcmp(alike, printed) == 0) {
+        verdicts->exact++;
+        return "exact";
+    }
+    if (is_known_error) {
+        verdicts->errata++;
+        return "erratum of the paper";
+    }
+    verdicts->differs++;
+    return "differs";
+}
+
+/* A row of the paper's table, and the method that it is about. */
+typedef struct table_row {
+    const fm_method_desc *method;
+    const char *title, *why;
+    const fm_yaml *printed, *errata;
+    double added_per_pixel, added_per_pixel_k;
+} table_row;
+
+static fm_status add_cell(const table_job *job, const table_row *row, size_t index)
+{
+    uint64_t totals[FM_MAX_TOTALS];
+    fm_workload workload = { .totals = totals, .option = default_option, .runner = row->method };
+    const char *title;
+    double value = NAN;
+    const fm_yaml *column = &job->columns->items[index];
+    const fm_yaml *printed = &row->printed->items[index];
+    fm_status status = read_text(&title, column, "title", true, job);
+    if (status == FM_OK)
+        status = read_workload(&workload, column, job);
+    if (status == FM_OK)
+        status = read_totals(totals, column, &workload, job);
+    if (status != FM_OK)
+        return status;
+    if (printed->kind != FM_YAML_SCALAR ||
+        (printed->text[0] != '\0' && !text_to_double(&value, printed->text)))
+        return fm_fail(job->err, FM_INVALID, "%s:%u: 'printed': numbers are expected", job->path,
+                       printed->line);
+    const double pixels = (double)workload.width_px * workload.height_px;
+    const double added =
+        job->added_per_pixel + row->added_per_pixel + row->added_per_pixel_k * (double)workload.k;
+    const double ours = (double)formula_bytes(row->method, &workload) + added * pixels;
+    const char *verdict =
+        judge(job->verdicts, ours / mib, printed->text, list_has(row->errata, printed->text));
+    csv_add(job->csv, job->figure);
+    text_add(job->csv, ",");
+    csv_add(job->csv, title);
+    text_add(job->csv, ",%s,", row->method->id);
+    csv_add(job->csv, row->title);
+    text_add(job->csv, ",%.0f,%.4f,%s,", ours, ours / mib, printed->text);
+    if (printed->text[0] != '\0')
+        text_add(job->csv, "%.4f", ours / mib - value);
+    text_add(job->csv, ",%s,", verdict);
+    csv_add(job->csv, row->why);
+    text_add(job->csv, "\n");
+    return FM_OK;
+}
+
+static fm_status add_row(const table_job *job, const fm_yaml *from, const fm_plugin_list *plugins)
+{
+    const char *id;
+    const fm_plugin_entry *entry = NULL;
+    table_row row = { .errata = yaml_tree_find(from, "errata") };
+    fm_status status = read_text(&id, from, "method", true, job);
+    if (status == FM_OK)
+        status = plugin_list_get(&entry, plugins, id, job->err);
+    if (status == FM_OK && entry->plugin == NULL)
+        status = fm_fail(job->err, entry->error.status, "%s", entry->error.message);
+    if (status == FM_OK)
+        status = read_text(&row.title, from, "title", true, job);
+    if (status == FM_OK)
+        status = read_text(&row.why, from, "why", false, job);
+    if (status == FM_OK)
+        status = read_number(&row.added_per_pixel, from, "added_per_pixel", false, job);
+    if (status == FM_OK)
+        status = read_number(&row.added_per_pixel_k, from, "added_per_pixel_k", false, job);
+    if (status == FM_OK)
+        status = read_list(&row.printed, from, "printed", job);
+    if (status == FM_OK && row.printed->count != job->columns->count)
+        status = fm_fail(job->err, FM_INVALID, "%s:%u: 'printed': one value for each column",
+                         job->path, row.printed->line);
+    if (status != FM_OK)
+        return status;
+    row.method = entry->plugin->method;
+    for (size_t i = 0; i < job->columns->count && status == FM_OK; i++)
+        status = add_cell(job, &row, i);
+    return status;
+}
+
+fm_status memory_table_is_in(bool *has, const char *path, fm_error *err)
+{
+    fm_yaml *root = NULL;
+    *has = false;
+    const fm_status status = yaml_tree_read(&root, path, err);
+    if (status == FM_OK)
+        *has = yaml_tree_find(root, "table") != NULL;
+    yaml_tree_free(root);
+    return status;
+}
+
+fm_status memory_table_make(fm_text *csv, fm_memory_verdicts *verdicts, const char *path,
+                            const char *figure, const fm_plugin_list *plugins, fm_error *err)
+{
+    fm_yaml *root = NULL;
+    table_job job = {
+        .path = path, .figure = figure, .csv = csv, .verdicts = verdicts, .err = err
+    };
+    fm_status status = yaml_tree_read(&root, path, err);
+    const fm_yaml *table = status == FM_OK ? yaml_tree_find(root, "table") : NULL;
+    if (status == FM_OK && (table == NULL || table->kind != FM_YAML_MAP))
+        status = fm_fail(err, FM_INVALID, "%s: 'table': a mapping is expected", path);
+    if (status == FM_OK)
+        status = read_number(&job.added_per_pixel, table, "added_per_pixel", false, &job);
+    if (status == FM_OK)
+        status = read_list(&job.columns, table, "columns", &job);
+    if (status == FM_OK)
+        status = read_list(&job.rows, table, "rows", &job);
+    if (status == FM_OK && csv->length == 0)
+        text_add(csv,
+                 "figure,workload,method,title,bytes,mib,printed,difference_mib,verdict,why\n");
+    for (size_t i = 0; status == FM_OK && i < job.rows->count; i++)
+        status = add_row(&job, &job.rows->items[i], plugins);
+    if (status == FM_OK && csv->failed)
+        status = fm_fail(err, FM_NO_MEMORY, "%s: no memory", path);
+    yaml_tree_free(root);
+    return status;
+}

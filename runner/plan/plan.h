@@ -1,0 +1,87 @@
+/* methods x scenes x devices x feeds x axes -> cases. */
+#ifndef FM_PLAN_H
+#define FM_PLAN_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/error.h"
+#include "model/descriptor.h"
+#include "model/settings.h"
+#include "plugin/plugin.h"
+
+/* One row of the summary. */
+typedef struct fm_case {
+    char id[17]; /* xxhash of what makes the case another one: method and its version, scene
+                    by name and by hash, device, feed, k and the other keys of a case, and
+                    choices other than an option's first value */
+    char method[64];
+    char scene[128];  /* name of the scene as given */
+    char device[128]; /* "vulkan", "vulkan:1", "osmesa" */
+    char feed[32];    /* "raster", "compute-layer", ... */
+    fm_settings settings;
+    bool is_given[FM_MAX_KEYS]; /* by index in fm_keys: an axis sets it, not the scene */
+    fm_choice choices[FM_MAX_OPTIONS];
+    size_t choice_count;
+    char skip[512]; /* not empty: recorded as not_supported with this reason, never run
+                       (k above k_max, a feed or an option's value that the method does not
+                       have, a mesh that cannot be read), or "plugin_error: ..." */
+    bool no_image;  /* its picture is not kept; no part of its id */
+} fm_case;
+
+/* Lists of texts, each ending with NULL. */
+typedef struct fm_plan_request {
+    const char *spec;           /* YAML file; NULL: none */
+    const char *const *methods; /* ids; empty or "all": all that are not controls */
+    const char *const *scenes;  /* names in the scene folders or paths of .yml; empty: "layers" */
+    const char *const *devices; /* empty: "vulkan" */
+    const char *const *feeds;   /* empty: "raster" */
+    const char *const *axes; /* "KEY=VALUE[,VALUE...]", "KEY=LOW:HIGH:*FACTOR|+STEP"; KEY is one of
+                                fm_keys, an option of a chosen method, or method, scene, device
+                                or feed, which add to the lists above */
+} fm_plan_request;
+
+typedef struct fm_plan {
+    fm_case *cases;
+    size_t count;
+    uint64_t seed;           /* of the run: interleaving, bootstrap */
+    uint32_t launches;       /* the most of any case */
+    uint32_t frames, warmup; /* the same */
+} fm_plan;
+
+enum { FM_PLAN_MAX_CASES = 100000 }; /* before equal ones become one */
+
+/* Expands a request: scene by scene, device by device, feed by feed, method by method, the last
+ * axis fastest. A spec is a YAML mapping of `methods`, `scenes`, `devices`, `feeds` (lists or one
+ * name) and of keys and options, each with a value, a text as after -a, or a list; paths in it are
+ * seen from its folder. An option concerns the methods that have it, a scene's key the scenes whose
+ * generator reads it; one that concerns nobody is an error. n and r replace one another.
+ * Command line wins over the spec, the spec over the scene file, the scene file
+ * over defaults. Cases that differ only in a key their method does not use (k of an A-buffer)
+ * are one case. Unknown names: FM_INVALID with file, line and the nearest legal one. Refused
+ * plugins become cases with skip = "plugin_error: ...". */
+fm_status plan_expand(fm_plan *plan, const fm_plan_request *request, const fm_plugin_list *plugins,
+                      fm_error *err);
+void plan_free(fm_plan *plan);
+/* How often a case is launched: as often as the plan says, but once if it is simulated and nobody
+ * asked for more, since all launches of it would say the same. */
+uint32_t plan_case_launches(const fm_plan *plan, size_t index);
+
+/* Feeds by name, "raster", "compute-layer", ...: one bit of FM_FEED_*, 0 for no such feed. */
+uint32_t feed_from_name(const char *name);
+/* The name of one FM_FEED_* bit. */
+const char *feed_name(uint32_t feed);
+
+/* Names and files of all scenes in the scene folders; lists end with NULL inside. */
+typedef struct fm_scene_names {
+    char (*names)[128];
+    char (*paths)[FM_PATH_MAX_BYTES];
+    size_t count;
+} fm_scene_names;
+fm_status scene_names_list(fm_scene_names *names, fm_error *err);
+void scene_names_free(fm_scene_names *names);
+
+/* Fills settings from a scene file: key: value lines, or nothing but a name. */
+fm_status scene_file_read(fm_settings *settings, const char *path, fm_error *err);
+
+#endif

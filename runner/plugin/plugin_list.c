@@ -1,0 +1,189 @@
+#include <dirent.h>
+#include <errno.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/text.h"
+#include "plan/plan.h"
+#include "plugin.h"
+
+/* Where plugins lie, beside what is given and FRAGMARK_PLUGIN_PATH. */
+static const char *const beside_executable[] = { "methods", "../lib/fragmark/methods" };
+
+typedef char path_text[2 * FM_PATH_MAX_BYTES];
+
+static bool join(path_text path, const char *folder, const char *name)
+{
+    const int length = snprintf(path, sizeof(path_text), "%s/%s", folder, name);
+    return length > 0 && (size_t)length < FM_PATH_MAX_BYTES;
+}
+
+static fm_status add_entry(fm_plugin_list *list, const char *id, const char *path, fm_error *err)
+{
+    fm_plugin_entry *grown = realloc(list->entries, (list->count + 1) * sizeof *list->entries);
+    if (grown == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "list of plugins");
+    list->entries = grown;
+    fm_plugin_entry *entry = &grown[list->count++];
+    *entry = (fm_plugin_entry){ 0 };
+    snprintf(entry->id, sizeof entry->id, "%s", id);
+    /* A refusal stays in the entry. */
+    (void)plugin_open(&entry->plugin, path, &entry->error);
+    return FM_OK;
+}
+
+/* Opens folder/id/id.so, unless there is none, or an earlier folder had it. */
+static fm_status scan_entry(fm_plugin_list *list, const char *folder, const char *id, fm_error *err)
+{
+    path_text path, file;
+    const size_t room = sizeof list->entries->id;
+    if (id[0] == '.' || strlen(id) >= room || plugin_list_find(list, id) != NULL)
+        return FM_OK;
+    snprintf(file, sizeof file, "%s/%s.so", id, id);
+    if (!join(path, folder, file) || access(path, F_OK) != 0)
+        return FM_OK;
+    return add_entry(list, id, path, err);
+}
+
+static void note_common(fm_plugin_list *list, const char *folder)
+{
+    path_text common, prelude;
+    if (list->common_folder[0] == '\0' && join(common, folder, "common") &&
+        join(prelude, common, "prelude.glsl") && access(prelude, R_OK) == 0)
+        memcpy(list->common_folder, common, strlen(common) + 1);
+}
+
+static fm_status scan_folder(fm_plugin_list *list, const char *folder, fm_error *err)
+{
+    fm_status status = FM_OK;
+    struct dirent **names = NULL;
+    const int count = scandir(folder, &names, NULL, alphasort);
+    if (count < 0)
+        return fm_fail(err, FM_IO, "plugin folder %s: %s", folder, strerror(errno));
+    note_common(list, folder);
+    for (int i = 0; i < count; i++) {
+        if (status == FM_OK)
+            status = scan_entry(list, folder, names[i]->d_name, err);
+        free(names[i]);
+    }
+    free(names);
+    return status;
+}
+
+/* A list of folders with colons between them; empty parts are skipped. */
+static fm_status scan_path(fm_plugin_list *list, const char *folders, fm_error *err)
+{
+    fm_status status = FM_OK;
+    char *copy = strdup(folders), *rest = copy;
+    if (copy == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "FRAGMARK_PLUGIN_PATH");
+    for (char *part = strtok_r(copy, ":", &rest); part != NULL && status == FM_OK;
+         part = strtok_r(NULL, ":", &rest))
+        status = scan_folder(list, part, err);
+    free(copy);
+    return status == FM_OK ? FM_OK : fm_error_prefix(err, "FRAGMARK_PLUGIN_PATH");
+}
+
+/* Folders that may be missing. */
+static fm_status scan_beside_executable(fm_plugin_list *list, fm_error *err)
+{
+    char executable[FM_PATH_MAX_BYTES];
+    path_text folder;
+    const ssize_t length = readlink("/proc/self/exe", executable, sizeof executable - 1);
+    if (length <= 0)
+        return FM_OK;
+    executable[length] = '\0';
+    *strrchr(executable, '/') = '\0';
+    for (size_t i = 0; i < sizeof beside_executable / sizeof beside_executable[0]; i++) {
+        if (!join(folder, executable, beside_executable[i]) || access(folder, R_OK | X_OK) != 0)
+            continue;
+        const fm_status status = scan_folder(list, folder, err);
+        if (status != FM_OK)
+            return status;
+    }
+    return FM_OK;
+}
+
+static int compare_entries(const void *left, const void *right)
+{
+    return strcmp(((const fm_plugin_entry *)left)->id, ((const fm_plugin_entry *)right)->id);
+}
+
+fm_status plugin_list_open(fm_plugin_list *list, const char *const *extra, fm_error *err)
+{
+    fm_status status = FM_OK;
+    fm_error ignored;
+    if (err == NULL)
+        err = &ignored;
+    *list = (fm_plugin_list){ 0 };
+    for (; extra != NULL && *extra != NULL && status == FM_OK; extra++)
+        status = scan_folder(list, *extra, err);
+    const char *folders = getenv("FRAGMARK_PLUGIN_PATH");
+    if (status == FM_OK && folders != NULL)
+        status = scan_path(list, folders, err);
+    if (status == FM_OK)
+        status = scan_beside_executable(list, err);
+    if (status != FM_OK) {
+        plugin_list_close(list);
+        return status;
+    }
+    if (list->count > 0)
+        qsort(list->entries, list->count, sizeof *list->entries, compare_entries);
+    return FM_OK;
+}
+
+void plugin_list_close(fm_plugin_list *list)
+{
+    for (size_t i = 0; i < list->count; i++)
+        plugin_close(list->entries[i].plugin);
+    free(list->entries);
+    *list = (fm_plugin_list){ 0 };
+}
+
+const fm_plugin_entry *plugin_list_find(const fm_plugin_list *list, const char *id)
+{
+    for (size_t i = 0; i < list->count; i++)
+        if (strcmp(list->entries[i].id, id) == 0)
+            return &list->entries[i];
+    return NULL;
+}
+
+fm_status plugin_list_get(const fm_plugin_entry **entry, const fm_plugin_list *list, const char *id,
+                          fm_error *err)
+{
+    *entry = plugin_list_find(list, id);
+    if (*entry != NULL)
+        return FM_OK;
+    const char **ids = calloc(list->count + 1, sizeof *ids);
+    if (ids == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "method '%s'", id);
+    for (size_t i = 0; i < list->count; i++)
+        ids[i] = list->entries[i].id;
+    const char *nearest = text_nearest(id, ids, list->count);
+    free(ids);
+    if (nearest == NULL)
+        return fm_fail(err, FM_INVALID, "method '%s': no such plugin among %zu", id, list->count);
+    return fm_fail(err, FM_INVALID, "method '%s': no such plugin; nearest is '%s'", id, nearest);
+}
+
+static bool is_floor(const fm_method_desc *method, uint32_t feed)
+{
+    const uint32_t feeds = method->feeds != 0 ? method->feeds : FM_FEEDS_FRAGMENTS;
+    return (method->traits & FM_TRAIT_FLOOR) != 0 && (feeds & feed) != 0;
+}
+
+fm_status plugin_list_floor(const fm_plugin **plugin, const fm_plugin_list *list, uint32_t feed,
+                            fm_error *err)
+{
+    *plugin = NULL;
+    for (size_t i = 0; i < list->count && *plugin == NULL; i++)
+        if (list->entries[i].plugin != NULL && is_floor(list->entries[i].plugin->method, feed))
+            *plugin = list->entries[i].plugin;
+    if (*plugin == NULL)
+        return fm_fail(err, FM_INVALID, "no plugin is the floor of feed %s: is '%s' built?",
+                       feed_name(feed), feed == FM_FEED_TRIANGLES ? "null-triangles" : "null");
+    return FM_OK;
+}

@@ -1,0 +1,25 @@
+/* A method's fragments against truth, pixel by pixel. */
+#ifndef FM_CHECK_H
+#define FM_CHECK_H
+
+#include "scene/scene.h"
+
+/* Sums over all pixels. */
+typedef struct fm_check {
+    uint64_t captured; /* fragments handed over */
+    uint64_t missing;  /* depths of the wanted multiset that were not captured */
+    /* captured (depth, colour) pairs that the pixel does not have, or beyond the wanted count */
+    uint64_t extra;
+    uint64_t misordered;    /* neighbours in decreasing depth */
+    uint64_t wrong_pixels;  /* pixels with any of these */
+    uint32_t depth_ulp_max; /* most representable steps between the i-th captured depth and the
+                               i-th wanted one */
+} fm_check;
+
+/* One pixel: `captured` in the order of ranks (reordered by this call), `truth` all of the pixel's
+ * fragments, nearest first; wanted: how many of them, from the front, the method was to hand over.
+ */
+void check_pixel(fm_check *check, fm_fragment *captured, uint32_t captured_count,
+                 const fm_fragment *truth, uint32_t truth_count, uint32_t wanted);
+
+#endif

@@ -1,0 +1,67 @@
+/* One case in one process: warm-up, timed frames with the floor's between, then the check of every
+ * fragment. */
+#ifndef FM_MEASURE_H
+#define FM_MEASURE_H
+
+#include "base/image.h"
+#include "instance/instance.h"
+#include "truth/check.h"
+#include "truth/truth.h"
+
+/* A frame over this is sampled twice only. */
+#define MEASURE_LONG_FRAME_NS 2000000000ull
+
+/* A timed frame of the method, and the frame of the floor that ran beside it. */
+typedef struct fm_sample {
+    uint64_t pass_ns[FM_MAX_PASSES]; /* with timers=frame 0, as floor_store_ns */
+    uint64_t frame_ns;               /* of all passes together */
+    uint64_t wall_ns;
+    uint64_t canary_ns;
+    uint64_t floor_store_ns, floor_frame_ns;
+} fm_sample;
+
+typedef struct fm_measurement {
+    fm_sample *samples; /* [sample_count]; owned */
+    uint32_t sample_count;
+    bool is_long; /* a frame took over MEASURE_LONG_FRAME_NS: two samples only */
+    uint64_t bytes_allocated, bytes_predicted, bytes_used;
+    uint64_t lost;
+    uint32_t scene_passes;  /* of the last timed frame */
+    uint32_t k_chosen;      /* where the method chooses its k; 0: it does not */
+    uint64_t frames_redone; /* because something had to grow; warm-up and check included */
+    uint64_t redone_ns;     /* of the passes of the frames that were thrown away for it */
+    uint64_t frames_lossy;  /* run again on a software rasteriser, since a lock gave up */
+    fm_image *image;        /* of the last timed frame; owned */
+
+    /* checked launches only */
+    bool is_checked;
+    fm_check check;
+    uint64_t culled, locked, arrived; /* as of a frame: fm_frame_result */
+    double self_max_abs;    /* timed image against its own fragments composited in double; pixels
+                               where a tie leaves their order open are left out */
+    fm_image_error error;   /* against the picture of the fragments that it was to hand over */
+    double truncation_rmse; /* of that picture against the picture of all fragments */
+    double total_rmse;      /* of the image against the picture of all fragments */
+    fm_image *truth_image;  /* of the wanted fragments; owned */
+} fm_measurement;
+
+typedef struct fm_measure_desc {
+    const fm_instance_desc *method; /* its is_capture and capture_slots are set here */
+    const fm_instance_desc *floor;
+    const fm_truth *truth;
+    uint32_t frames, warmup;
+    bool check;
+} fm_measure_desc;
+
+/* Fragments of a pixel that truth wants of a method: UINT32_MAX means all. */
+uint32_t measure_wanted(const fm_method_desc *method, uint32_t k);
+/* Fragments of a pixel that it has places for, as truth_kept counts them: 0 means all. */
+uint32_t measure_places(const fm_method_desc *method, uint32_t k);
+
+/* What a timed image may be from its own fragments for rounding, n being the most of any pixel. */
+double measure_image_tolerance(uint32_t n);
+
+fm_status measure_case(fm_measurement *measurement, const fm_measure_desc *desc, fm_error *err);
+void measurement_free(fm_measurement *measurement);
+
+#endif

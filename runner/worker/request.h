@@ -1,0 +1,38 @@
+/* What a worker is asked (worker.h), as a file; and which truth each case is compared with. */
+#ifndef FM_REQUEST_H
+#define FM_REQUEST_H
+
+#include "plan/plan.h"
+
+typedef struct fm_request {
+    const fm_case *of;                   /* truth jobs: one of the cases that it is for */
+    const char *plugin, *floor, *common; /* paths */
+    const char *truth;                   /* path of the truth file */
+    const char *image;                   /* path; "": none */
+    bool is_truth_job, check, validation, no_timers;
+    uint32_t launch;
+} fm_request;
+
+fm_status request_write(const char *path, const fm_request *request, fm_error *err);
+
+/* One truth: a scene as a device's rasteriser sees it. raster and compute feeds share it, and the
+ * floor that their cases are measured beside. */
+typedef struct fm_truth_job {
+    char name[200];    /* of its files: SCENEHASH-DEVICE[-FEED] */
+    size_t of;         /* the first case that needs it */
+    const char *floor; /* path of the floor's plugin; "": all its cases are skipped, or frames,
+                          which have none */
+} fm_truth_job;
+
+typedef struct fm_truth_jobs {
+    fm_truth_job *jobs;
+    size_t count;
+    size_t *of_case; /* [plan->count]: which job */
+} fm_truth_jobs;
+
+/* FM_INVALID: no plugin is the floor of a feed. */
+fm_status truth_jobs_create(fm_truth_jobs *jobs, const fm_plan *plan, const fm_plugin_list *plugins,
+                            fm_error *err);
+void truth_jobs_free(fm_truth_jobs *jobs);
+
+#endif

@@ -1,0 +1,36 @@
+/* A launch whose feed is `frames`: a technique runs a whole sequence on the simulated GPU.
+ *
+ * The result gets (worker.h) image_hash of the last frame; samples of each frame: frame.cycles,
+ * frame.energy_nj, frame.tiles_skipped, frame.fragments_shaded, frame.wrong_tiles; and metrics.
+ *
+ * Metrics that are sums over all frames but the first, in which no technique has anything to go by:
+ * every counter of simulator/counters.h by its name; fragments_generated; cycles, cycles.geometry,
+ * cycles.raster, cycles.signature_stall, cycles.raster_b (the other form), cycles.STAGE (busy
+ * cycles of the raster stages), cycles.VARIANT (models/cycles.h); energy_nj, energy.COMPONENT_nj,
+ * energy_corner.NAME_nj (models/energy.h).
+ *
+ * Metrics against the baseline's image: wrong_tiles and wrong_frames of all frames; rmse, psnr_db,
+ * max_abs and ssim of the last. And how fast the simulation was: simulated_fragments_per_core_s. */
+#ifndef FM_TECHNIQUE_JOB_H
+#define FM_TECHNIQUE_JOB_H
+
+#include <jansson.h>
+
+#include "model/settings.h"
+#include "simulator/technique.h"
+
+typedef struct fm_technique_job {
+    const fm_method_desc *method; /* NULL: the baseline, whose images are the truth */
+    const fm_settings *settings;  /* finished */
+    const fm_choice *choices;
+    size_t choice_count;
+    const char *truth; /* file: written by the baseline, else read */
+    const char *image; /* file for the last frame where it is not the baseline's; "": none */
+} fm_technique_job;
+
+/* *wrong_tiles: of all frames. FM_INVALID, FM_IO: a sequence or a truth file that cannot be used.
+ */
+fm_status technique_job_run(json_t *result, uint64_t *wrong_tiles, const fm_technique_job *job,
+                            fm_error *err);
+
+#endif

@@ -1,0 +1,374 @@
+/* Loops, ping-pong copies and includes, as descriptors use them, on shaders written by the test. */
+#include <stdio.h>
+#include <unistd.h>
+
+#include "instance/instance.h"
+#include "kit/scene_kit.h"
+
+#define HEAD .id = "looped", .traits = FM_TRAIT_FLOOR
+
+/* The empty line before the include is part of the test. */
+static const char add_one[] =
+    "\n#include \"result.glsl\"\nvoid one(uvec2 pixel) { add(pixel, 1u); }\n";
+static const char add_hundred[] =
+    "#include \"result.glsl\"\nvoid hundred(uvec2 pixel) { add(pixel, 100u); }\n";
+static const char result_file[] = "void add(uvec2 pixel, uint term)\n{\n"
+                                  "    if (pixel == uvec2(0u))\n        result[0] += term;\n}\n";
+static const char step_file[] =
+    "void step_on(uvec2 pixel)\n{\n    uint i = fm_pixel_index(pixel);\n"
+    "    value[i] = fm_iteration == 0u ? 1u : value_previous[i] + 1u;\n}\n";
+static const char take_file[] = "void take(uvec2 pixel)\n{\n    if (pixel == uvec2(0u))\n"
+                                "        result[0] = value_previous[0];\n}\n";
+static const char vote_file[] =
+    "void vote(uvec2 pixel)\n{\n    uint votes = subgroupBallotBitCount(subgroupBallot(true));\n"
+    "    if (pixel == uvec2(0u) && votes > 0u)\n        result[0] = 7u;\n}\n";
+static const char wide_file[] =
+    "void wide(uvec2 pixel)\n{\n    uint64_t sum = uint64_t(pixel.x) + 1ul;\n"
+    "    if (pixel == uvec2(0u))\n        result[0] = uint(sum >> 1);\n}\n";
+
+static const char more_file[] =
+    "void more(uvec2 pixel)\n{\n    if (pixel == uvec2(0u))\n"
+    "        result[0] = result[0] == 1u || result[0] == 6u ? 6u : 1u;\n"
+    "}\n";
+static const char number_file[] =
+    "void number(uvec2 pixel)\n{\n    uint i = fm_pixel_index(pixel);\n"
+    "    if (i < fm_length_many)\n        many[i] = i;\n}\n";
+
+static const struct {
+    const char *name, *text;
+} files[] = { { "one.glsl", add_one },        { "hundred.glsl", add_hundred },
+              { "result.glsl", result_file }, { "step.glsl", step_file },
+              { "take.glsl", take_file },     { "vote.glsl", vote_file },
+              { "wide.glsl", wide_file },     { "more.glsl", more_file },
+              { "number.glsl", number_file } };
+enum { FILE_COUNT = sizeof files / sizeof files[0] };
+
+static void write_files(char folder[32])
+{
+    char path[64];
+    assert_non_null(mkdtemp(folder));
+    for (size_t i = 0; i < FILE_COUNT; i++) {
+        snprintf(path, sizeof path, "%s/%s", folder, files[i].name);
+        assert_int_equal(text_write_file(path, files[i].text, strlen(files[i].text), NULL), FM_OK);
+    }
+}
+
+static void remove_files(const char *folder)
+{
+    char path[64];
+    for (size_t i = 0; i < FILE_COUNT; i++) {
+        snprintf(path, sizeof path, "%s/%s", folder, files[i].name);
+        unlink(path);
+    }
+    rmdir(folder);
+}
+
+typedef struct frames_seen {
+    uint32_t redos;  /* of the last frame */
+    uint64_t length; /* of the last resource, after it */
+    uint32_t last;   /* its last element */
+} frames_seen;
+
+static const char *last_resource(const fm_method_desc *method)
+{
+    size_t count = 0;
+    while (count < FM_MAX_RESOURCES && method->resources[count].name != NULL)
+        count++;
+    return method->resources[count - 1].name;
+}
+
+/* Runs frames of the method on an empty scene and reads result[0]. */
+static fm_status try_frames(uint32_t *word, frames_seen *seen, fm_device *device,
+                            const fm_method_desc *method, fm_buffers buffers, int frames,
+                            fm_error *err)
+{
+    char folder[32] = "/tmp/fm-instance-XXXXXX";
+    scene_kit kit;
+    kit_scene scene;
+    fm_stage *stage = NULL;
+    fm_instance *instance = NULL;
+    fm_frame_result result;
+    write_files(folder);
+    kit_open(&kit, device);
+    kit_scene_open(&scene, &kit, "width_px=3 height_px=2 n=0");
+    fm_settings settings = scene.scene->settings;
+    settings.buffers = buffers;
+    const fm_instance_desc desc = { .method = method,
+                                    .folders = { folder, kit.plugins.common_folder },
+                                    .settings = &settings };
+    fm_status status = stage_create(&stage, device, scene.scene, scene.truth, FM_FEED_RASTER, err);
+    fm_instance_desc full = desc;
+    full.stage = stage;
+    if (status == FM_OK)
+        status = instance_create(&instance, &full, err);
+    for (int i = 0; i < frames && status == FM_OK; i++)
+        status = instance_frame(&result, instance, NULL, err);
+    if (status == FM_OK)
+        status = device->ops->buffer_read(device, instance_slot(instance, "result")->buffer, 0,
+                                          word, sizeof *word, err);
+    if (status == FM_OK) {
+        const char *last = last_resource(method);
+        const fm_slot *slot = instance_slot(instance, last);
+        *seen = (frames_seen){ .redos = result.redos, .length = slot->length };
+        status = device->ops->buffer_read(device, slot->buffer, (slot->length - 1) * 4, &seen->last,
+                                          sizeof seen->last, err);
+    }
+    instance_destroy(instance);
+    stage_destroy(stage);
+    kit_scene_close(&scene);
+    kit_close(&kit);
+    remove_files(folder);
+    return status;
+}
+
+static fm_status try_frame(uint32_t *word, fm_device *device, const fm_method_desc *method,
+                           fm_buffers buffers, fm_error *err)
+{
+    frames_seen ignored;
+    return try_frames(word, &ignored, device, method, buffers, 1, err);
+}
+
+static uint32_t run_frame(fm_device *device, const fm_method_desc *method, fm_buffers buffers)
+{
+    uint32_t word = 0;
+    fm_error err = { 0 };
+    if (try_frame(&word, device, method, buffers, &err) != FM_OK)
+        fail_msg("%s", err.message);
+    return word;
+}
+
+static fm_next until_three(const fm_workload *workload, const char *pass)
+{
+    assert_string_equal(pass, "ask");
+    return workload->totals[0] < 3 ? FM_REPEAT : FM_NEXT;
+}
+
+static void loop_without_count_runs_until_the_hook_lets_go(void **state)
+{
+    static const fm_method_desc method = {
+        HEAD,
+        .resources = { { .name = "result", .extent = { .constant = 1 } } },
+        .totals = { { .name = "sum", .resource = "result", .pass = "one" } },
+        .passes = { { .name = "clear", .kind = FM_PASS_CLEAR, .writes = { "result" } },
+                    { .name = "one",
+                      .kind = FM_PASS_PIXELS,
+                      .shader = "one.glsl",
+                      .writes = { "result" } },
+                    { .name = "ask", .kind = FM_PASS_HOST } },
+        .loops = { { .first = "one", .last = "ask" } },
+        .after = until_three,
+    };
+    assert_int_equal(run_frame(*state, &method, FM_BUFFERS_AUTO), 3);
+}
+
+static void loops_that_start_together_nest(void **state)
+{
+    static const fm_method_desc method = {
+        HEAD,
+        .resources = { { .name = "result", .extent = { .constant = 1 } } },
+        .passes = { { .name = "clear", .kind = FM_PASS_CLEAR, .writes = { "result" } },
+                    { .name = "one",
+                      .kind = FM_PASS_PIXELS,
+                      .shader = "one.glsl",
+                      .writes = { "result" } },
+                    { .name = "hundred",
+                      .kind = FM_PASS_PIXELS,
+                      .shader = "hundred.glsl",
+                      .writes = { "result" } } },
+        .loops = { { .first = "one", .last = "one", .count = 3 },
+                   { .first = "one", .last = "hundred", .count = 2 } },
+    };
+    assert_int_equal(run_frame(*state, &method, FM_BUFFERS_AUTO), 2 * (3 * 1 + 100));
+}
+
+static const fm_method_desc ping_pong = {
+    HEAD,
+    .resources = { { .name = "result", .extent = { .constant = 1 } },
+                   { .name = "value", .extent = { .per_pixel = 1 }, .ping_pong = true } },
+    .passes = { { .name = "step-on",
+                  .kind = FM_PASS_PIXELS,
+                  .shader = "step.glsl",
+                  .reads = { "value_previous" },
+                  .writes = { "value" } },
+                { .name = "take",
+                  .kind = FM_PASS_PIXELS,
+                  .shader = "take.glsl",
+                  .reads = { "value_previous" },
+                  .writes = { "result" } } },
+    .loops = { { .first = "step-on", .last = "step-on", .count = 5 } },
+};
+
+static void an_iteration_reads_what_the_last_one_wrote(void **state)
+{
+    assert_int_equal(run_frame(*state, &ping_pong, FM_BUFFERS_BOUND), 5);
+}
+
+static void an_iteration_reads_what_the_last_one_wrote_by_address(void **state)
+{
+    const fm_device *device = *state;
+    if ((device->caps.features & FM_FEATURE_BUFFER_ADDRESS) == 0)
+        skip();
+    assert_int_equal(run_frame(*state, &ping_pong, FM_BUFFERS_ADDRESS), 5);
+}
+
+/* One pixel pass of this name writes result[0]. */
+static fm_method_desc one_pass(const char *name, const char *shader, uint32_t features)
+{
+    return (fm_method_desc){
+        HEAD,
+        .features = features,
+        .resources = { { .name = "result", .extent = { .constant = 1 } } },
+        .passes = { { .name = name,
+                      .kind = FM_PASS_PIXELS,
+                      .shader = shader,
+                      .writes = { "result" } } },
+    };
+}
+
+static void a_method_that_asks_for_ballots_has_their_words(void **state)
+{
+    const fm_device *device = *state;
+    const fm_method_desc method = one_pass("vote", "vote.glsl", FM_FEATURE_SUBGROUP_BALLOT);
+    if ((device->caps.features & FM_FEATURE_SUBGROUP_BALLOT) == 0)
+        skip();
+    assert_int_equal(run_frame(*state, &method, FM_BUFFERS_AUTO), 7);
+}
+
+static void only_a_method_that_asks_for_64_bits_has_them(void **state)
+{
+    uint32_t word = 0;
+    fm_error err = { 0 };
+    const fm_method_desc method = one_pass("wide", "wide.glsl", 0);
+    assert_int_equal(try_frame(&word, *state, &method, FM_BUFFERS_AUTO, &err), FM_SHADER);
+    assert_non_null(strstr(err.message, "uint64_t"));
+}
+
+/* 3 x 2 pixels: wrapped to 64 bits these would be 2 and 12 bytes. */
+static void an_extent_beyond_64_bits_is_no_memory(void **state)
+{
+    static const fm_extent extents[] = { { .per_pixel = (UINT64_C(1) << 63) / 3 + 1 },
+                                         { .constant = UINT64_MAX, .per_pixel = 1 } };
+    for (size_t i = 0; i < sizeof extents / sizeof extents[0]; i++) {
+        uint32_t word = 0;
+        fm_error err = { 0 };
+        fm_method_desc method = ping_pong;
+        method.resources[1].extent = extents[i];
+        assert_int_equal(try_frame(&word, *state, &method, FM_BUFFERS_AUTO, &err), FM_NO_MEMORY);
+        assert_non_null(strstr(err.message, "'value'"));
+    }
+}
+
+/* The first frame waits for the total, which is 1; the second one goes on with what that sized,
+ * finds at its end that the total has become 6, and is run again. */
+static void a_late_total_runs_the_frame_again_that_it_had_no_room_in(void **state)
+{
+    static const fm_method_desc method = {
+        HEAD,
+        .resources = { { .name = "result", .extent = { .constant = 1 } },
+                       { .name = "many",
+                         .sizing = FM_SIZE_AFTER_TOTAL,
+                         .extent = { .per_total = 1, .total = "sum" } } },
+        .totals = { { .name = "sum", .resource = "result", .pass = "more", .late = true } },
+        .passes = { { .name = "more",
+                      .kind = FM_PASS_PIXELS,
+                      .shader = "more.glsl",
+                      .writes = { "result" } },
+                    { .name = "number",
+                      .kind = FM_PASS_PIXELS,
+                      .shader = "number.glsl",
+                      .writes = { "many" } } },
+    };
+    static const frames_seen expected[] = { { 0, 1, 0 }, { 1, 6, 5 }, { 0, 6, 5 } };
+    for (int i = 0; i < 3; i++) {
+        uint32_t word = 0;
+        fm_error err = { 0 };
+        frames_seen seen = { 0 };
+        assert_int_equal(try_frames(&word, &seen, *state, &method, FM_BUFFERS_AUTO, i + 1, &err),
+                         FM_OK);
+        assert_int_equal(seen.redos, expected[i].redos);
+        assert_int_equal(seen.length, expected[i].length);
+        assert_int_equal(seen.last, expected[i].last);
+    }
+}
+
+static void expect_redone(kit_scene *scene, const char *method, uint64_t frames)
+{
+    fm_measurement m;
+    assert_true(kit_measure(&m, scene, &(kit_way){ method, FM_FEED_RASTER, "" }));
+    assert_int_equal(m.frames_redone, frames);
+    assert_int_equal(m.redone_ns > 0, frames > 0);
+    measurement_free(&m);
+}
+
+/* A list's pool starts too small: the first frame of the timed build and that of the checked one
+ * are thrown away, and what they cost is told. An array of n never grows. */
+static void frames_thrown_away_are_counted_and_timed(void **state)
+{
+    scene_kit kit;
+    kit_scene scene;
+    kit_open(&kit, device_of(state));
+    kit_scene_open(&scene, &kit, "width_px=16 height_px=16 n=9 pixel_density=1");
+    expect_redone(&scene, "ab-ll", 2);
+    expect_redone(&scene, "ab-array", 0);
+    kit_scene_close(&scene);
+    kit_close(&kit);
+}
+
+static void expect_one_timer(kit_scene *scene, const kit_way *way)
+{
+    const fm_sample none = { 0 };
+    char texts[64];
+    fm_measurement each, one;
+    snprintf(texts, sizeof texts, "%s timers=frame", way->texts);
+    assert_true(kit_measure(&each, scene, way));
+    assert_true(kit_measure(&one, scene, &(kit_way){ way->method, way->feed, texts }));
+    const fm_sample *sample = &one.samples[0];
+    assert_true(sample->frame_ns > 0 && sample->floor_frame_ns > 0 && sample->canary_ns > 0);
+    assert_memory_equal(sample->pass_ns, none.pass_ns, sizeof none.pass_ns);
+    assert_int_equal(sample->floor_store_ns, 0);
+    assert_int_equal(one.redone_ns > 0, each.redone_ns > 0);
+    assert_true(kit_apart(each.image, one.image) == 0.0);
+    assert_memory_equal(&one.check, &each.check, sizeof one.check);
+    assert_int_equal(one.scene_passes, each.scene_passes);
+    measurement_free(&each);
+    measurement_free(&one);
+}
+
+/* Passes that follow each other, a loop, a total that parts the frame, a frame done again, an image
+ * that is combined from front and back, a map before the passes. */
+static void one_timer_for_a_frame_changes_its_times_only(void **state)
+{
+    static const kit_way ways[] = {
+        { "kplus-array", FM_FEED_RASTER, "k=4" },
+        { "kb-multi", FM_FEED_RASTER, "k=4" },
+        { "s-buffer", FM_FEED_COMPUTE_PIXEL, "" },
+        { "ab-ll", FM_FEED_RASTER, "" },
+        { "dual", FM_FEED_RASTER, "" },
+        { "kplus-array", FM_FEED_RASTER, "k=4 culling=occupancy" },
+    };
+    scene_kit kit;
+    kit_scene scene;
+    kit_open(&kit, device_of(state));
+    kit_scene_open(&scene, &kit, "width_px=16 height_px=16 n=9 pixel_density=1");
+    for (size_t i = 0; i < sizeof ways / sizeof ways[0]; i++)
+        expect_one_timer(&scene, &ways[i]);
+    kit_scene_close(&scene);
+    kit_close(&kit);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        ON_VULKAN_AND_OSMESA(loop_without_count_runs_until_the_hook_lets_go),
+        ON_VULKAN_AND_OSMESA(loops_that_start_together_nest),
+        ON_VULKAN_AND_OSMESA(an_iteration_reads_what_the_last_one_wrote),
+        ON_VULKAN_AND_OSMESA(an_iteration_reads_what_the_last_one_wrote_by_address),
+        ON_VULKAN_AND_OSMESA(a_method_that_asks_for_ballots_has_their_words),
+        ON_VULKAN_AND_OSMESA(only_a_method_that_asks_for_64_bits_has_them),
+        ON_VULKAN_AND_OSMESA(an_extent_beyond_64_bits_is_no_memory),
+        ON_VULKAN_AND_OSMESA(a_late_total_runs_the_frame_again_that_it_had_no_room_in),
+        ON_VULKAN_AND_OSMESA(frames_thrown_away_are_counted_and_timed),
+        ON_VULKAN_AND_OSMESA(one_timer_for_a_frame_changes_its_times_only),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

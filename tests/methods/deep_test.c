@@ -1,0 +1,93 @@
+/* Pixels with more fragments than a private array holds: A-buffers sort them where they lie. And
+ * what compositing layer by layer, a pass each, rounds off. */
+#include "kit/scene_kit.h"
+
+/* Beyond SORT_PRIVATE_MAX of methods/common/sort_limit.glsl, and no multiple of a page or of two.
+ */
+#define DEEP "width_px=7 height_px=5 pixel_density=1 tessellation=1 n=701 "
+
+static void expect_exact(kit_scene *scene, const kit_way *way)
+{
+    fm_measurement m;
+    char where[256];
+    kit_tell(where, way);
+    if (kit_measure(&m, scene, way)) {
+        const double allowed = measure_image_tolerance(scene->truth->n);
+        if (m.check.missing + m.check.extra + m.check.misordered + m.lost != 0)
+            fail_msg("%s: missing %u, extra %u, misordered %u, lost %u", where,
+                     (unsigned)m.check.missing, (unsigned)m.check.extra,
+                     (unsigned)m.check.misordered, (unsigned)m.lost);
+        if (!(m.self_max_abs <= allowed))
+            fail_msg("%s: the image is %.3g from its fragments, not %.3g", where, m.self_max_abs,
+                     allowed);
+        assert_int_equal(m.bytes_allocated, m.bytes_predicted);
+    }
+    measurement_free(&m);
+}
+
+static void a_buffers_sort_any_number_of_fragments(void **state)
+{
+    static const char *const scenes[] = {
+        DEEP "order=descending fragment_probability=0.9 alpha=0.01",
+        DEEP "order=random depths=coplanar alpha=0.01",
+        DEEP "order=ascending alpha=0.01",
+        DEEP "order=random alpha=0.01",
+    };
+    static const uint32_t feeds[] = { FM_FEED_RASTER, FM_FEED_COMPUTE_ADJACENT,
+                                      FM_FEED_COMPUTE_LAYER, FM_FEED_TRIANGLES };
+    _Static_assert(sizeof scenes / sizeof scenes[0] == sizeof feeds / sizeof feeds[0],
+                   "a feed for each scene");
+    scene_kit kit;
+    kit_open(&kit, device_of(state));
+    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
+        kit_scene scene;
+        kit_scene_open(&scene, &kit, scenes[i]);
+        for (size_t at = 0; at < kit.plugins.count; at++) {
+            const fm_method_desc *method = kit_method(&kit, at);
+            if (method->keeps == FM_KEEPS_ALL && (method->traits & FM_TRAIT_EXACT) != 0 &&
+                (kit_feeds(method) & feeds[i]) != 0)
+                expect_exact(&scene, &(kit_way){ method->id, feeds[i], "" });
+        }
+        kit_scene_close(&scene);
+    }
+    kit_close(&kit);
+}
+
+/* Within the iterations that Mesa's software rasterisers allow an invocation. */
+static void three_thousand_fragments_are_sorted_where_they_lie(void **state)
+{
+    static const char *const methods[] = { "ab-array", "ab-ll-paged" };
+    scene_kit kit;
+    kit_scene scene;
+    kit_open(&kit, device_of(state));
+    kit_scene_open(&scene, &kit,
+                   "width_px=2 height_px=1 pixel_density=1 tessellation=1 n=3000 alpha=0.005");
+    for (size_t i = 0; i < sizeof methods / sizeof methods[0]; i++)
+        expect_exact(&scene, &(kit_way){ methods[i], FM_FEED_RASTER, "" });
+    kit_scene_close(&scene);
+    kit_close(&kit);
+}
+
+/* Were A kept between passes and not 1 - A, what shows would never
+ * fall below an ulp of 1, and each of the layers behind would still add to the picture. */
+static void layers_behind_an_opaque_picture_add_nothing(void **state)
+{
+    scene_kit kit;
+    kit_scene scene;
+    kit_open(&kit, device_of(state));
+    kit_scene_open(&scene, &kit,
+                   "width_px=3 height_px=2 pixel_density=1 tessellation=1 n=400 alpha=0.3");
+    expect_exact(&scene, &(kit_way){ "f2b", FM_FEED_RASTER, "" });
+    kit_scene_close(&scene);
+    kit_close(&kit);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        ON_VULKAN_AND_OSMESA(a_buffers_sort_any_number_of_fragments),
+        ON_VULKAN_AND_OSMESA(three_thousand_fragments_are_sorted_where_they_lie),
+        ON_VULKAN_AND_OSMESA(layers_behind_an_opaque_picture_add_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

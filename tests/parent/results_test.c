@@ -1,0 +1,285 @@
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include "fake_plan.h"
+#include "parent/results.h"
+
+static const char *const only_kb[] = { "kb", NULL };
+
+/* {"status": "ok", samples of frames 0, 1, ...}; store_ms[i] < 0 ends them. */
+static json_t *result_of(const double *store_ms, const double *canary_ns)
+{
+    json_t *samples = json_array();
+    for (int i = 0; store_ms[i] >= 0.0; i++) {
+        const struct {
+            const char *metric, *unit;
+            double value;
+        } all[] = { { "frame_ms", "ms", 2.0 * store_ms[i] }, { "store_ms", "ms", store_ms[i] },
+                    { "floor_store_ms", "ms", 0.5 },         { "floor_frame_ms", "ms", 2.0 },
+                    { "pass.sort_ms", "ms", 0.25 },          { "canary_ns", "ns", canary_ns[i] } };
+        for (size_t j = 0; j < sizeof all / sizeof all[0]; j++)
+            json_array_append_new(samples, json_pack("{s:i, s:s, s:f, s:s}", "frame", i, "metric",
+                                                     all[j].metric, "value", all[j].value, "unit",
+                                                     all[j].unit));
+    }
+    return json_pack("{s:s, s:s, s:s, s:b, s:s, s:{s:I, s:s, s:I, s:I}, s:o}", "status", "ok",
+                     "message", "", "device_name", "card, \"big\"", "has_gpu_clock", 1,
+                     "image_hash", "00000000000000aa", "metrics", "fragments_generated",
+                     (json_int_t)1000, "psnr_db", "inf", "n", (json_int_t)4, "wrong_pixels",
+                     (json_int_t)3, "samples", samples);
+}
+
+static fm_results *created(fake_plan *fake, uint32_t launches)
+{
+    fm_results *results = NULL;
+    fm_error err = { 0 };
+    fake_open(fake, only_kb, launches);
+    if (results_create(&results, &fake->plan, &fake->list, fake->folder, "run", &err) != FM_OK)
+        fail_msg("%s", err.message);
+    return results;
+}
+
+static void add(fm_results *results, uint32_t launch, const double *store_ms,
+                const double *canary_ns)
+{
+    fm_error err = { 0 };
+    json_t *result = result_of(store_ms, canary_ns);
+    if (results_add(results, 0, launch, result, &err) != FM_OK)
+        fail_msg("%s", err.message);
+    json_decref(result);
+}
+
+/* The field of the only row under this name; the row must hold no quoted field before it. */
+static void field_of(char field[256], const fm_results *results, const char *name)
+{
+    fm_text header = { 0 }, row = { 0 };
+    summary_header(&header);
+    summary_row(&row, results, 0);
+    const char *names = header.bytes, *values = row.bytes;
+    for (;;) {
+        const size_t name_length = strcspn(names, ",\n");
+        size_t value_length = 0;
+        for (bool quoted = false;
+             values[value_length] != '\0' &&
+             (quoted || (values[value_length] != ',' && values[value_length] != '\n'));
+             value_length++)
+            quoted ^= values[value_length] == '"';
+        snprintf(field, 256, "%.*s", (int)value_length, values);
+        if (strlen(name) == name_length && strncmp(names, name, name_length) == 0)
+            break;
+        assert_int_equal(names[name_length], ',');
+        assert_int_equal(values[value_length], ',');
+        names += name_length + 1;
+        values += value_length + 1;
+    }
+    text_free(&header);
+    text_free(&row);
+}
+
+static void assert_field(const fm_results *results, const char *name, const char *expected)
+{
+    char field[256];
+    field_of(field, results, name);
+    assert_string_equal(field, expected);
+}
+
+static void csv_quotes_as_rfc_4180_says(void **state)
+{
+    (void)state;
+    fm_text text = { 0 };
+    csv_add(&text, "plain text");
+    csv_add(&text, "a,b");
+    csv_add(&text, "say \"no\"");
+    csv_add(&text, "two\nlines");
+    assert_string_equal(text.bytes, "plain text\"a,b\"\"say \"\"no\"\"\"\"two\nlines\"");
+    text_free(&text);
+}
+
+static void summary_has_the_columns_of_the_design_in_order(void **state)
+{
+    (void)state;
+    fm_text header = { 0 };
+    summary_header(&header);
+    assert_string_equal(
+        header.bytes,
+        "schema,case_id,status,message,method,method_version,device,device_name,feed,scene,"
+        "width_px,height_px,n,k,r,pixel_density,fragment_probability,tessellation,order,seed,"
+        "options,launches,samples,frame_ms,frame_ms_low,frame_ms_high,clear_ms,count_ms,"
+        "reference_ms,store_ms,resolve_ms,times_floor,bytes_allocated,bytes_predicted,bytes_used,"
+        "fragments_generated,fragments_stored,fragments_lost,missing,extra,misordered,"
+        "depth_ulp_max,rmse,psnr_db,max_abs,ssim,flip,truncation_rmse,distinct_images,"
+        "frame_wall_ms,fragments_per_s\n");
+    text_free(&header);
+}
+
+static fm_results *with_two_launches(fake_plan *fake)
+{
+    fm_results *results = created(fake, 2);
+    const double first[] = { 1.0, 2.0, 3.0, -1 }, second[] = { 3.0, 4.0, 5.0, -1 };
+    const double steady[] = { 10, 10, 10 };
+    add(results, 0, first, steady);
+    add(results, 1, second, steady);
+    return results;
+}
+
+static void summary_row_holds_medians_ratios_and_rates(void **state)
+{
+    (void)state;
+    fake_plan fake;
+    fm_results *results = with_two_launches(&fake);
+    assert_field(results, "schema", "1");
+    assert_field(results, "device_name", "\"card, \"\"big\"\"\"");
+    assert_field(results, "store_ms", "3");
+    assert_field(results, "frame_ms", "6");
+    assert_field(results, "times_floor", "6"); /* median of 2/0.5 and 4/0.5 */
+    assert_field(results, "fragments_per_s", "166666.667");
+    assert_field(results, "samples", "6");
+    assert_field(results, "launches", "2");
+    assert_field(results, "distinct_images", "1");
+    assert_field(results, "psnr_db", "inf");
+    assert_field(results, "clear_ms", "");
+    assert_field(results, "method_version", "7");
+    assert_true(results_is_finished(results, 0));
+    results_destroy(results);
+    fake_close(&fake);
+}
+
+static void times_floor_is_of_frames_where_they_have_one_timer(void **state)
+{
+    (void)state;
+    fake_plan fake;
+    fm_results *results = with_two_launches(&fake);
+    fake.cases[0].settings.timers = FM_TIMERS_FRAME;
+    assert_field(results, "times_floor", "3"); /* median of 4/2 and 8/2 */
+    results_destroy(results);
+    fake_close(&fake);
+}
+
+static void summary_leaves_k_empty_where_it_is_not_used(void **state)
+{
+    (void)state;
+    fake_plan fake;
+    fm_results *results = created(&fake, 1);
+    assert_field(results, "k", "8");
+    fake.cases[0].settings.k = 0;
+    assert_field(results, "k", "");
+    assert_field(results, "r", "");
+    results_destroy(results);
+    fake_close(&fake);
+}
+
+static void summary_options_name_what_is_not_as_usual(void **state)
+{
+    (void)state;
+    fake_plan fake;
+    fm_results *results = created(&fake, 1);
+    assert_field(results, "options", "");
+    fake.cases[0].settings.lock = FM_LOCK_INTERLOCK;
+    fake.cases[0].choices[0] = (fm_choice){ "layout", "pixel" };
+    fake.cases[0].choice_count = 1;
+    assert_field(results, "options", "layout=pixel lock=interlock");
+    results_destroy(results);
+    fake_close(&fake);
+}
+
+static void summary_excludes_samples_off_full_clock(void **state)
+{
+    (void)state;
+    fake_plan fake;
+    fm_results *results = created(&fake, 1);
+    const double store_ms[] = { 1.0, 9.0, 1.0, -1 }, canary_ns[] = { 100, 141, 140 };
+    fake.plan.frames = 3;
+    add(results, 0, store_ms, canary_ns);
+    assert_field(results, "store_ms", "1");
+    assert_field(results, "samples", "2");
+    assert_field(results, "message", "unclear: only 2 samples at full clock");
+    assert_field(results, "status", "ok");
+    assert_int_equal(results_end(results, NULL), FM_OK);
+    char *samples = fake_read(&fake, "samples.csv");
+    const char *mark = strstr(samples, "off_clock");
+    assert_non_null(strstr(samples, "1,run,0000000000000001,0,1,off_clock,1,\n"));
+    assert_null(strstr(mark + 1, "off_clock")); /* no other frame */
+    free(samples);
+    results_destroy(results);
+    fake_close(&fake);
+}
+
+static void samples_are_kept_with_metrics_that_have_no_column(void **state)
+{
+    (void)state;
+    fake_plan fake;
+    fm_results *results = created(&fake, 1);
+    const double store_ms[] = { 1.5, -1 }, canary_ns[] = { 100 };
+    add(results, 0, store_ms, canary_ns);
+    char *samples = fake_read(&fake, "samples.csv");
+    assert_string_equal(samples, "schema,run_id,case_id,launch,frame,metric,value,unit\n"
+                                 "1,run,0000000000000001,0,0,frame_ms,3,ms\n"
+                                 "1,run,0000000000000001,0,0,store_ms,1.5,ms\n"
+                                 "1,run,0000000000000001,0,0,floor_store_ms,0.5,ms\n"
+                                 "1,run,0000000000000001,0,0,floor_frame_ms,2,ms\n"
+                                 "1,run,0000000000000001,0,0,pass.sort_ms,0.25,ms\n"
+                                 "1,run,0000000000000001,0,0,canary_ns,100,ns\n"
+                                 "1,run,0000000000000001,,,wrong_pixels,3,\n");
+    free(samples);
+    results_destroy(results);
+    fake_close(&fake);
+}
+
+static void a_case_has_the_worst_status_of_its_launches(void **state)
+{
+    (void)state;
+    fake_plan fake;
+    fm_results *results = created(&fake, 3);
+    const double store_ms[] = { 1.0, -1 }, canary_ns[] = { 100 };
+    json_t *crash = json_pack("{s:s, s:s}", "status", "crash", "message", "killed by SIGSEGV");
+    add(results, 0, store_ms, canary_ns);
+    assert_false(results_is_finished(results, 0));
+    assert_int_equal(results_add(results, 0, 1, crash, NULL), FM_OK);
+    json_decref(crash);
+    assert_field(results, "status", "crash");
+    assert_field(results, "message", "launch 1: killed by SIGSEGV");
+    assert_field(results, "store_ms", "1");
+    assert_true(results_is_finished(results, 0));
+    results_destroy(results);
+    fake_close(&fake);
+}
+
+static void skipped_cases_tell_refusal_from_missing_support(void **state)
+{
+    (void)state;
+    fake_plan fake;
+    fm_results *results = NULL;
+    fake_open(&fake, only_kb, 1);
+    snprintf(fake.cases[0].skip, sizeof fake.cases[0].skip, "plugin_error: kb.so: wrong ABI");
+    assert_int_equal(results_create(&results, &fake.plan, &fake.list, fake.folder, "run", NULL),
+                     FM_OK);
+    assert_field(results, "status", "plugin_error");
+    assert_field(results, "message", "kb.so: wrong ABI");
+    results_destroy(results);
+    snprintf(fake.cases[0].skip, sizeof fake.cases[0].skip, "k above 16");
+    assert_int_equal(results_create(&results, &fake.plan, &fake.list, fake.folder, "run", NULL),
+                     FM_OK);
+    assert_field(results, "status", "not_supported");
+    results_destroy(results);
+    fake_close(&fake);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(csv_quotes_as_rfc_4180_says),
+        cmocka_unit_test(summary_has_the_columns_of_the_design_in_order),
+        cmocka_unit_test(summary_row_holds_medians_ratios_and_rates),
+        cmocka_unit_test(times_floor_is_of_frames_where_they_have_one_timer),
+        cmocka_unit_test(summary_leaves_k_empty_where_it_is_not_used),
+        cmocka_unit_test(summary_options_name_what_is_not_as_usual),
+        cmocka_unit_test(summary_excludes_samples_off_full_clock),
+        cmocka_unit_test(samples_are_kept_with_metrics_that_have_no_column),
+        cmocka_unit_test(a_case_has_the_worst_status_of_its_launches),
+        cmocka_unit_test(skipped_cases_tell_refusal_from_missing_support),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
