@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/stats.h"
+#include "base/random.h"
 #include "frame_sequences.h"
 
 static uint32_t below(fm_adversary *s, uint32_t bound)

@@ -3,7 +3,7 @@
 #include <assert.h>
 #include <math.h>
 
-#include "base/stats.h"
+#include "base/random.h"
 #include "scene/shade.h"
 #include "turns.h"
 

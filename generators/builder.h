@@ -5,6 +5,7 @@
 #ifndef FM_BUILDER_H
 #define FM_BUILDER_H
 
+#include "base/random.h"
 #include "scene/scene.h"
 #include "scene/vec3.h"
 

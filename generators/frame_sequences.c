@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/stats.h"
+#include "base/random.h"
 
 enum {
     SUB = FRAMES_SUBPIXELS,

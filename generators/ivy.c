@@ -1,6 +1,6 @@
 /* Stand-in for the ivy: stems that climb the walls of a ruin and end in lobed leaves. Metres; y is
  * up. */
-#include "base/stats.h"
+#include "base/random.h"
 #include "procedural.h"
 #include "turns.h"
 

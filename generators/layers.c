@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/stats.h"
+#include "base/random.h"
 #include "scene/scene.h"
 
 static const uint32_t all_live = 0xFFFFFFFFu;

@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/csv.h"
 #include "base/text.h"
 #include "draw/figure_charts.h"
-#include "parent/results.h"
 
 enum { DEVICES_MOST = 16 };
 

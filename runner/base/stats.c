@@ -5,6 +5,8 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
+#include "random.h"
+
 enum { REPLICATES = 1000, LOW_INDEX = 24, HIGH_INDEX = 975 }; /* 2.5 % and 97.5 % */
 
 /* NAN sorts last, so that the order is total and qsort stays defined. */
@@ -113,25 +115,4 @@ double stats_student(size_t degrees)
                                     2.145,    2.131,  2.120, 2.110, 2.101, 2.093, 2.086 };
     enum { LAST = sizeof table / sizeof table[0] - 1 };
     return degrees <= LAST ? table[degrees] : table[LAST]; /* more than needed: at most 6 % */
-}
-
-uint64_t random_next(uint64_t *state)
-{
-    uint64_t z = *state += 0x9E3779B97F4A7C15u;
-    z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ z >> 27) * 0x94D049BB133111EBu;
-    return z ^ z >> 31;
-}
-
-uint32_t random_below(uint64_t *state, uint32_t bound)
-{
-    assert(bound > 0);
-    /* Lemire's multiplication; the lowest products are rejected, for they would favour some values.
-     */
-    const uint32_t reject_below = (0u - bound) % bound;
-    for (;;) {
-        const uint64_t product = (random_next(state) >> 32) * bound;
-        if ((uint32_t)product >= reject_below)
-            return (uint32_t)(product >> 32);
-    }
 }

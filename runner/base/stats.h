@@ -28,9 +28,4 @@ fm_interval stats_bootstrap(const fm_samples *samples, uint64_t seed);
 /* Student's t that 95 % of means lie within, by degrees of freedom (1 and more; INFINITY for 0). */
 double stats_student(size_t degrees);
 
-/* splitmix64: the next value of *state; the one generator of randomness in the runner. */
-uint64_t random_next(uint64_t *state);
-/* Uniform in [0, bound). */
-uint32_t random_below(uint64_t *state, uint32_t bound);
-
 #endif

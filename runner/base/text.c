@@ -98,14 +98,6 @@ void text_list_free(fm_text_list *list)
     *list = (fm_text_list){ 0 };
 }
 
-bool text_path_beside(char *path, size_t room_bytes, const char *file, const char *name)
-{
-    const char *slash = name[0] == '/' ? NULL : strrchr(file, '/');
-    const int folder_length = slash != NULL ? (int)(slash - file) + 1 : 0;
-    const int length = snprintf(path, room_bytes, "%.*s%s", folder_length, file, name);
-    return length >= 0 && (size_t)length < room_bytes;
-}
-
 /* Reads to the end, so that pipes and /proc files, whose size is not known, work too. */
 static fm_status read_stream(fm_text *text, FILE *file, const char *path, size_t limit_bytes,
                              fm_error *err)

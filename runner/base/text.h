@@ -35,9 +35,6 @@ fm_status text_read_file(char **bytes, size_t *count, const char *path, size_t l
 /* Writes path.partial, flushes it to disk and renames it: never half a file. */
 fm_status text_write_file(const char *path, const char *bytes, size_t count, fm_error *err);
 
-/* `name` as seen from the folder of `file`: absolute names stay. false: longer than the room. */
-bool text_path_beside(char *path, size_t room_bytes, const char *file, const char *name);
-
 /* JSON and HTML take UTF-8 only: no surrogates, nothing overlong. */
 bool text_is_utf8(const char *text);
 /* Each byte that keeps it from being UTF-8 becomes '?'. */

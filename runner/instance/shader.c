@@ -191,15 +191,15 @@ void shader_declare(fm_text *text, const fm_use *uses, size_t count, const char 
     }
 }
 
-static void find_file(char path[FM_PATH_MAX_BYTES], const fm_shader_folders *folders,
-                      const char *file)
+static fm_status find_file(char path[FM_PATH_MAX_BYTES], const fm_shader_folders *folders,
+                           const char *file, fm_error *err)
 {
-    if (strncmp(file, "common/", 7) == 0)
-        snprintf(path, FM_PATH_MAX_BYTES, "%s/%s", folders->common, file + 7);
-    else if (strchr(file, '/') != NULL)
-        snprintf(path, FM_PATH_MAX_BYTES, "%s/../%s", folders->method, file);
-    else
-        snprintf(path, FM_PATH_MAX_BYTES, "%s/%s", folders->method, file);
+    static const char common[] = "common/";
+    char other[FM_PATH_MAX_BYTES];
+    if (strncmp(file, common, sizeof common - 1) == 0)
+        return path_join(path, folders->common, file + sizeof common - 1, err);
+    snprintf(other, sizeof other, "%s%s", strchr(file, '/') != NULL ? "../" : "", file);
+    return path_join(path, folders->method, other, err);
 }
 
 /* The file named in a line `#include "file"`, or false. Blanks of sscanf would take empty lines and
@@ -220,8 +220,9 @@ static fm_status add_file(fm_text *text, const fm_shader_folders *folders, const
                        INCLUDE_DEPTH_MAX);
     if (strstr(file, "..") != NULL || file[0] == '/')
         return fm_fail(err, FM_INVALID, "%s: shader files are named by METHOD/FILE or FILE", file);
-    find_file(path, folders, file);
-    fm_status status = text_read_file(&bytes, &count, path, SHADER_FILE_MAX_BYTES, err);
+    fm_status status = find_file(path, folders, file, err);
+    if (status == FM_OK)
+        status = text_read_file(&bytes, &count, path, SHADER_FILE_MAX_BYTES, err);
     if (status != FM_OK)
         return status;
     for (char *line = bytes; status == FM_OK && *line != '\0';) {

@@ -12,6 +12,7 @@
 #include <stdint.h>
 
 #include "base/error.h"
+#include "base/path.h"
 #include "base/text.h"
 #include "fragmark/method.h"
 
@@ -85,7 +86,7 @@ typedef enum fm_cull_test { FM_CULL_TEST_EARLY, FM_CULL_TEST_SHADER } fm_cull_te
 typedef enum fm_cull_memory { FM_CULL_MEMORY_OWN, FM_CULL_MEMORY_SHARED } fm_cull_memory;
 typedef enum fm_own_cull { FM_OWN_CULL_ON, FM_OWN_CULL_OFF } fm_own_cull;
 
-enum { FM_TEXT_MAX = 256, FM_PATH_MAX_BYTES = 1024 };
+enum { FM_TEXT_MAX = 256 };
 #define FM_NOT_GIVEN UINT32_MAX
 
 /* One value for each key. */

@@ -154,11 +154,9 @@ fm_status journal_open(fm_journal **journal, const char *directory, const char *
         return fm_fail(err, FM_NO_MEMORY, "no memory for the journal");
     opened->fd = -1;
     snprintf(opened->plan_hash, sizeof opened->plan_hash, "%s", plan_hash);
-    const int length = snprintf(opened->path, sizeof opened->path, "%s/journal.jsonl", directory);
-    if (length < 0 || (size_t)length >= sizeof opened->path) {
-        status = fm_fail(err, FM_INVALID, "%.64s...: the path is too long", directory);
+    status = path_join(opened->path, directory, "journal.jsonl", err);
+    if (status != FM_OK)
         goto out;
-    }
     opened->fd = open(opened->path, O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
     if (opened->fd < 0) {
         status = fm_fail(err, FM_INVALID, "%s: %s", opened->path, strerror(errno));

@@ -191,16 +191,13 @@ fm_status manifest_write(const fm_manifest_desc *desc, fm_error *err)
 {
     char path[FM_PATH_MAX_BYTES];
     char *text = NULL;
-    fm_status status = FM_OK;
     json_t *manifest = manifest_json(desc);
-    const int length = snprintf(path, sizeof path, "%s/manifest.json", desc->run->directory);
-    if (manifest != NULL)
+    fm_status status = path_join(path, desc->run->directory, "manifest.json", err);
+    if (status == FM_OK && manifest != NULL)
         text = json_dumps(manifest, JSON_INDENT(2));
-    if (length < 0 || (size_t)length >= sizeof path)
-        status = fm_fail(err, FM_INVALID, "%.64s...: the path is too long", desc->run->directory);
-    else if (text == NULL)
+    if (status == FM_OK && text == NULL)
         status = fm_fail(err, FM_NO_MEMORY, "%s: cannot be put together", path);
-    else
+    if (status == FM_OK)
         status = text_write_file(path, text, strlen(text), err);
     free(text);
     json_decref(manifest);

@@ -1,4 +1,5 @@
 #include "results.h"
+#include "base/csv.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -24,29 +25,6 @@ _Static_assert(sizeof sample_name / sizeof sample_name[0] == FM_SAMPLE_METRIC_CO
 
 static const char samples_header[] = "schema,run_id,case_id,launch,frame,metric,value,unit\n";
 
-void csv_add(fm_text *text, const char *field)
-{
-    if (field[strcspn(field, "\",\r\n")] == '\0') {
-        text_add_raw(text, field, strlen(field));
-        return;
-    }
-    text_add_raw(text, "\"", 1);
-    for (; *field != '\0'; field++) {
-        if (*field == '"')
-            text_add_raw(text, "\"", 1);
-        text_add_raw(text, field, 1);
-    }
-    text_add_raw(text, "\"", 1);
-}
-
-void csv_add_real(fm_text *text, double value)
-{
-    if (isinf(value))
-        text_add(text, value > 0 ? "inf" : "-inf");
-    else if (!isnan(value))
-        text_add(text, "%.9g", value);
-}
-
 static fm_status append(const fm_results *results, const fm_text *text, fm_error *err)
 {
     if (text->failed)
@@ -57,15 +35,6 @@ static fm_status append(const fm_results *results, const fm_text *text, fm_error
             return fm_fail(err, FM_IO, "%s: %s", results->samples_path, strerror(errno));
         done += count > 0 ? (size_t)count : 0;
     }
-    return FM_OK;
-}
-
-static fm_status path_in(char path[FM_PATH_MAX_BYTES], const char *directory, const char *name,
-                         fm_error *err)
-{
-    const int length = snprintf(path, FM_PATH_MAX_BYTES, "%s/%s", directory, name);
-    if (length < 0 || length >= FM_PATH_MAX_BYTES)
-        return fm_fail(err, FM_INVALID, "%.64s...: the path is too long", directory);
     return FM_OK;
 }
 
@@ -122,9 +91,9 @@ fm_status results_create(fm_results **results, const fm_plan *plan, const fm_plu
     created->plugins = plugins;
     created->samples_fd = -1;
     snprintf(created->run_id, sizeof created->run_id, "%s", run_id);
-    status = path_in(created->summary_path, directory, "summary.csv", err);
+    status = path_join(created->summary_path, directory, "summary.csv", err);
     if (status == FM_OK)
-        status = path_in(created->samples_path, directory, "samples.csv", err);
+        status = path_join(created->samples_path, directory, "samples.csv", err);
     if (status == FM_OK)
         status = create_cases(created, err);
     if (status == FM_OK)

@@ -83,10 +83,6 @@ fm_status results_write_summary(fm_results *results, fm_error *err);
  * summary.csv are renewed without them. Cases that had no turn get a row with status skipped. */
 fm_status results_end(fm_results *results, fm_error *err);
 
-/* Adds text as an RFC 4180 field. */
-void csv_add(fm_text *text, const char *field);
-/* Adds a number with nine digits; nothing for NAN, "inf" for infinity. */
-void csv_add_real(fm_text *text, double value);
 /* Whether summary.csv has a column of this name. */
 bool summary_has_column(const char *name);
 /* Sets is_off_clock[launch * frames + frame] of each sample of the case whose canary was slow. */

@@ -9,7 +9,7 @@
 #include <unistd.h>
 #include <xxhash.h>
 
-#include "base/stats.h"
+#include "base/random.h"
 #include "journal.h"
 #include "launch.h"
 #include "manifest.h"
@@ -36,11 +36,9 @@ typedef struct run_state {
 static fm_status path_of(char path[FM_PATH_MAX_BYTES], const run_state *run, const char *folder,
                          const char *name, const char *ending, fm_error *err)
 {
-    const int length = snprintf(path, FM_PATH_MAX_BYTES, "%s/%s%s%s%s", run->desc->directory,
-                                folder, name[0] != '\0' ? "/" : "", name, ending);
-    if (length < 0 || length >= FM_PATH_MAX_BYTES)
-        return fm_fail(err, FM_INVALID, "%.64s...: the path is too long", run->desc->directory);
-    return FM_OK;
+    char inside[FM_PATH_MAX_BYTES];
+    snprintf(inside, sizeof inside, "%s%s%s%s", folder, name[0] != '\0' ? "/" : "", name, ending);
+    return path_join(path, run->desc->directory, inside, err);
 }
 
 /* Like mkdir -p. */

@@ -4,9 +4,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/csv.h"
 #include "base/yaml_tree.h"
 #include "model/formula.h"
-#include "parent/results.h"
 
 static const double mib = 1048576.0;
 

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/path.h"
 #include "base/yaml_tree.h"
 #include "scene/scene_file.h"
 
@@ -148,7 +149,7 @@ static fm_status add_spec_name(fm_selection *selection, fm_listed list, const fm
     const size_t length = strlen(value->text);
     const bool is_path =
         list == FM_LISTED_SCENES && length > 4 && strcmp(value->text + length - 4, ".yml") == 0;
-    if (!text_path_beside(name, sizeof name, is_path ? path : "", value->text))
+    if (!path_beside(name, sizeof name, is_path ? path : "", value->text))
         return fm_fail(err, FM_INVALID, "%s: a name that is too long", origin);
     return add_name(selection, list, name, origin, err);
 }

@@ -7,6 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/path.h"
 #include "base/text.h"
 #include "plan/plan.h"
 
@@ -33,7 +34,7 @@ static fm_status scene_folders(fm_text_list *folders, fm_error *err)
     free(copy);
     if (readlink("/proc/self/exe", executable, sizeof executable - 1) > 0)
         for (size_t i = 0; is_whole && i < sizeof beside / sizeof beside[0]; i++)
-            if (text_path_beside(folder, sizeof folder, executable, beside[i]))
+            if (path_beside(folder, sizeof folder, executable, beside[i]))
                 is_whole = text_list_add(folders, folder);
     return is_whole ? FM_OK : no_memory(err);
 }
@@ -140,7 +141,7 @@ fm_status scene_file_find(char path[FM_PATH_MAX_BYTES], const char *name, fm_err
 {
     fm_scene_names names = { 0 };
     if (is_yaml_name(name)) {
-        if (!text_path_beside(path, FM_PATH_MAX_BYTES, "", name))
+        if (!path_beside(path, FM_PATH_MAX_BYTES, "", name))
             return fm_fail(err, FM_INVALID, "scene '%.200s...': too long a path", name);
         return FM_OK;
     }
@@ -183,10 +184,10 @@ fm_status scene_file_value(char text[FM_PATH_MAX_BYTES], const fm_key *key, cons
             return FM_OK;
     } else if (value->kind == FM_YAML_SCALAR && key->type == FM_KEY_TEXT &&
                key->scope == FM_SCOPE_SCENE && value->text[0] != '\0') {
-        if (text_path_beside(text, FM_PATH_MAX_BYTES, file, value->text))
+        if (path_beside(text, FM_PATH_MAX_BYTES, file, value->text))
             return FM_OK;
     } else if (value->kind == FM_YAML_SCALAR) {
-        if (text_path_beside(text, FM_PATH_MAX_BYTES, "", value->text))
+        if (path_beside(text, FM_PATH_MAX_BYTES, "", value->text))
             return FM_OK;
     }
     return fm_fail(err, FM_INVALID, "%s:%u: %s: not one value", file, value->line, key->name);

@@ -7,6 +7,7 @@
 #include <cmocka.h>
 #include <math.h>
 
+#include "base/random.h"
 #include "base/stats.h"
 
 static void median_of_nothing_is_not_a_number(void **state)

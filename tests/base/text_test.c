@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "base/path.h"
 #include "base/text.h"
 #include "base/yaml_tree.h"
 
@@ -196,17 +197,17 @@ static void text_from_double_is_short_and_exact(void **state)
     assert_memory_equal(&again, &(double){ 1.0 / 3.0 }, sizeof again);
 }
 
-static void text_path_beside_keeps_absolute_names(void **state)
+static void path_beside_keeps_absolute_names(void **state)
 {
     (void)state;
     char path[16];
-    assert_true(text_path_beside(path, sizeof path, "a/b.yml", "c.obj"));
+    assert_true(path_beside(path, sizeof path, "a/b.yml", "c.obj"));
     assert_string_equal(path, "a/c.obj");
-    assert_true(text_path_beside(path, sizeof path, "a/b.yml", "/c.obj"));
+    assert_true(path_beside(path, sizeof path, "a/b.yml", "/c.obj"));
     assert_string_equal(path, "/c.obj");
-    assert_true(text_path_beside(path, sizeof path, "b.yml", "c.obj"));
+    assert_true(path_beside(path, sizeof path, "b.yml", "c.obj"));
     assert_string_equal(path, "c.obj");
-    assert_false(text_path_beside(path, sizeof path, "a/b.yml", "0123456789abcdef"));
+    assert_false(path_beside(path, sizeof path, "a/b.yml", "0123456789abcdef"));
 }
 
 static fm_status parse(fm_yaml **root, const char *text, fm_error *err)
@@ -305,7 +306,7 @@ int main(void)
         cmocka_unit_test(text_to_u64_takes_whole_texts_in_range),
         cmocka_unit_test(text_to_double_takes_finite_decimals),
         cmocka_unit_test(text_from_double_is_short_and_exact),
-        cmocka_unit_test(text_path_beside_keeps_absolute_names),
+        cmocka_unit_test(path_beside_keeps_absolute_names),
         cmocka_unit_test(yaml_tree_keeps_order_and_lines),
         cmocka_unit_test(yaml_tree_reads_nothing_as_an_empty_mapping),
         cmocka_unit_test(yaml_tree_refuses_with_the_line),

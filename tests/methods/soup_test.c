@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "base/stats.h"
+#include "base/random.h"
 #include "kit/scene_kit.h"
 
 enum {

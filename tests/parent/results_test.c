@@ -4,6 +4,7 @@
 
 #include <cmocka.h>
 
+#include "base/csv.h"
 #include "fake_plan.h"
 #include "parent/results.h"
 

@@ -1,7 +1,7 @@
 /* The host's rasteriser: coverage worked out by hand, shared edges, clipping, depth. */
 #include <math.h>
 
-#include "base/stats.h"
+#include "base/random.h"
 #include "device/device_kit.h"
 #include "scene/rasterise.h"
 

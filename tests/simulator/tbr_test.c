@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/stats.h"
+#include "base/random.h"
 #include "simulator/crc.h"
 #include "simulator/models/cycles.h"
 #include "simulator/models/energy.h"

@@ -1,0 +1,27 @@
+#include "csv.h"
+
+#include <math.h>
+#include <string.h>
+
+void csv_add(fm_text *text, const char *field)
+{
+    if (field[strcspn(field, "\",\r\n")] == '\0') {
+        text_add_raw(text, field, strlen(field));
+        return;
+    }
+    text_add_raw(text, "\"", 1);
+    for (; *field != '\0'; field++) {
+        if (*field == '"')
+            text_add_raw(text, "\"", 1);
+        text_add_raw(text, field, 1);
+    }
+    text_add_raw(text, "\"", 1);
+}
+
+void csv_add_real(fm_text *text, double value)
+{
+    if (isinf(value))
+        text_add(text, value > 0 ? "inf" : "-inf");
+    else if (!isnan(value))
+        text_add(text, "%.9g", value);
+}

@@ -1,0 +1,15 @@
+/* Fields of a CSV file as RFC 4180 has it. Reading is stricter than writing and is the reports'
+ * own. */
+#ifndef FM_CSV_H
+#define FM_CSV_H
+
+#include "text.h"
+
+/* Adds one field, quoted if it holds a comma, a quote or an end of line. Commas between fields and
+ * the end of the line are the caller's. */
+void csv_add(fm_text *text, const char *field);
+/* Adds a number with nine digits, enough for a float; nothing for NAN, "inf" or "-inf" for an
+ * infinity. */
+void csv_add_real(fm_text *text, double value);
+
+#endif

@@ -1,0 +1,19 @@
+/* Paths of files, in buffers of fixed size. */
+#ifndef FM_PATH_H
+#define FM_PATH_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "error.h"
+
+enum { FM_PATH_MAX_BYTES = 1024 }; /* with the NUL; longer paths are refused */
+
+/* path = folder/name. FM_INVALID: longer than FM_PATH_MAX_BYTES; path is then "". */
+fm_status path_join(char path[FM_PATH_MAX_BYTES], const char *folder, const char *name,
+                    fm_error *err);
+
+/* `name` as seen from the folder of `file`: absolute names stay. false: longer than the room. */
+bool path_beside(char *path, size_t room_bytes, const char *file, const char *name);
+
+#endif
