@@ -3,6 +3,7 @@
 #include "cli.h"
 #include "device/device.h"
 #include "list_markdown.h"
+#include "model/feeds.h"
 #include "parent/manifest.h"
 
 enum { KEY_JSON = 512, KEY_MARKDOWN, KEY_PLUGINS, DEVICES_MAX = 32 };
@@ -33,15 +34,11 @@ static json_t *names_json(const char *const *names)
 
 static json_t *method_row(const fm_plugin_entry *entry)
 {
-    const char *feeds[8] = { NULL };
-    size_t count = 0;
+    const char *feeds[FM_FEED_COUNT + 1];
     if (entry->plugin == NULL)
         return json_pack("{s:s, s:s}", "id", entry->id, "refused", entry->error.message);
     const fm_method_desc *method = entry->plugin->method;
-    const uint32_t mask = method->feeds != 0 ? method->feeds : FM_FEEDS_FRAGMENTS;
-    for (uint32_t bit = 1; bit <= FM_FEED_FRAMES; bit <<= 1)
-        if ((mask & bit) != 0)
-            feeds[count++] = feed_name(bit);
+    feed_names(feeds, method_feeds(method));
     json_t *row = method_json(method);
     json_object_set_new(row, "id", json_string(entry->id));
     json_object_set_new(row, "folder", json_string(entry->plugin->folder));

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "model/feeds.h"
 #include "plan/plan.h"
 
 static const char *const keeps_words[] = {
@@ -67,18 +68,14 @@ static void put_citation(FILE *out, const char *text)
 
 static void put_feeds(FILE *out, const fm_method_desc *method)
 {
-    const uint32_t feeds = method->feeds != 0 ? method->feeds : FM_FEEDS_FRAGMENTS;
-    const char *before = "";
-    if (feeds == FM_FEEDS_FRAGMENTS) {
+    const char *feeds[FM_FEED_COUNT + 1];
+    if (method_feeds(method) == FM_FEEDS_FRAGMENTS) {
         fputs("raster, compute", out);
         return;
     }
-    for (uint32_t bit = 1; bit <= FM_FEED_FRAMES; bit <<= 1) {
-        if ((feeds & bit) == 0)
-            continue;
-        fprintf(out, "%s%s", before, feed_name(bit));
-        before = ", ";
-    }
+    const size_t count = feed_names(feeds, method_feeds(method));
+    for (size_t i = 0; i < count; i++)
+        fprintf(out, "%s%s", i > 0 ? ", " : "", feeds[i]);
 }
 
 static void put_row(FILE *out, const char *id, const fm_method_desc *method)

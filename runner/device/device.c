@@ -18,30 +18,6 @@ const fm_device_ops *const fm_device_table[] = {
     &tbr_device,    &dummy_device, NULL,
 };
 
-static const uint32_t format_bytes[] = {
-    [FM_FORMAT_NONE] = 0,      [FM_FORMAT_R32UI] = 4, [FM_FORMAT_RG32UI] = 8,
-    [FM_FORMAT_RGBA32UI] = 16, [FM_FORMAT_R32F] = 4,  [FM_FORMAT_RG32F] = 8,
-    [FM_FORMAT_RGBA32F] = 16,  [FM_FORMAT_RGBA8] = 4, [FM_FORMAT_D32F] = 4,
-    [FM_FORMAT_D32F_S8] = 5,
-};
-_Static_assert(sizeof format_bytes / sizeof format_bytes[0] == FM_FORMAT_COUNT, "one a format");
-
-static const uint32_t element_bytes[] = {
-    [FM_ELEMENT_UINT] = 4, [FM_ELEMENT_UVEC2] = 8, [FM_ELEMENT_UVEC4] = 16, [FM_ELEMENT_FLOAT] = 4,
-    [FM_ELEMENT_VEC2] = 8, [FM_ELEMENT_VEC4] = 16, [FM_ELEMENT_UINT64] = 8,
-};
-_Static_assert(sizeof element_bytes / sizeof element_bytes[0] == FM_ELEMENT_COUNT, "one each");
-
-uint32_t fm_format_bytes(fm_format format)
-{
-    return format_bytes[format];
-}
-
-uint32_t fm_element_bytes(fm_element element)
-{
-    return element_bytes[element];
-}
-
 void ledger_add(fm_ledger *ledger, fm_owner owner, uint64_t bytes)
 {
     ledger->bytes[owner] += bytes;

@@ -263,11 +263,6 @@ fm_status device_open(fm_device **device, const char *name, const fm_device_desc
                       fm_error *err);
 void device_close(fm_device *device);
 
-/* Bytes of one texel and sample as booked (D32F_S8: 5). */
-uint32_t fm_format_bytes(fm_format format);
-/* Bytes of one element. */
-uint32_t fm_element_bytes(fm_element element);
-
 /* What follows is for implementations. */
 
 /* GLSL that does not compile. */

@@ -1,4 +1,5 @@
 #include "instance_internal.h"
+#include "model/formats.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -43,12 +44,12 @@ static fm_status create_buffer(fm_instance *instance, fm_slot *slot, const fm_re
                                uint64_t elements, fm_error *err)
 {
     const uint64_t length = elements > 0 ? elements : 1; /* an empty scene still binds something */
-    const uint32_t element_bytes = fm_element_bytes(resource->element);
+    const uint32_t stride = element_bytes(resource->element);
     const uint64_t shared = formula_buffer_bytes(instance->method, resource, &instance->workload);
-    if (length > (UINT64_MAX >> 1) / element_bytes || shared > UINT64_MAX >> 1)
+    if (length > (UINT64_MAX >> 1) / stride || shared > UINT64_MAX >> 1)
         return fm_fail(err, FM_NO_MEMORY, "buffer '%s': its extent is over 2^63 bytes",
                        resource->name);
-    const uint64_t own = length * element_bytes; /* grown, perhaps, beyond the extent */
+    const uint64_t own = length * stride; /* grown, perhaps, beyond the extent */
     const fm_buffer_desc desc = { .name = resource->name,
                                   .bytes = own > shared ? own : shared,
                                   .owner = FM_OWNER_METHOD,
@@ -245,8 +246,7 @@ static uint64_t used_of(const fm_instance *instance, size_t index, const fm_work
 {
     const fm_resource *resource = &instance->method->resources[index];
     const uint64_t used = formula_used_bytes(resource, workload);
-    const uint64_t there =
-        instance->resources[index][0].length * fm_element_bytes(resource->element);
+    const uint64_t there = instance->resources[index][0].length * element_bytes(resource->element);
     return resource->kind == FM_RESOURCE_BUFFER && used > there ? there : used;
 }
 

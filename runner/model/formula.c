@@ -4,6 +4,7 @@
 
 #include "base/text.h"
 #include "device/device.h"
+#include "model/formats.h"
 
 int total_index(const fm_method_desc *method, const char *name)
 {
@@ -90,7 +91,7 @@ uint32_t formula_count(const fm_loop *loop, const fm_workload *workload)
 uint64_t formula_image_bytes(const fm_resource *resource, const fm_workload *workload)
 {
     const uint64_t pixels = (uint64_t)workload->width_px * workload->height_px;
-    return pixels * fm_format_bytes(resource->format) * formula_layers(resource, workload) *
+    return pixels * format_bytes(resource->format) * formula_layers(resource, workload) *
            formula_samples(resource, workload);
 }
 
@@ -98,7 +99,7 @@ static uint64_t own_bytes(const fm_method_desc *method, const fm_resource *resou
                           const fm_workload *workload)
 {
     const uint64_t elements = formula_elements(method, &resource->extent, workload);
-    return product_of(elements > 0 ? elements : 1, fm_element_bytes(resource->element));
+    return product_of(elements > 0 ? elements : 1, element_bytes(resource->element));
 }
 
 uint64_t formula_buffer_bytes(const fm_method_desc *method, const fm_resource *resource,
@@ -145,5 +146,5 @@ uint64_t formula_used_bytes(const fm_resource *resource, const fm_workload *work
                               resource->used.per_fragment * workload->fragments +
                               resource->used.per_kept * workload->fragments_kept;
     return resource->kind == FM_RESOURCE_IMAGE ? formula_image_bytes(resource, workload)
-                                               : elements * fm_element_bytes(resource->element);
+                                               : elements * element_bytes(resource->element);
 }

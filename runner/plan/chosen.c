@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "device/device.h"
+#include "model/feeds.h"
 #include "plan_case.h"
 #include "scene/scene_file.h"
 
@@ -139,12 +140,10 @@ static fm_status check_device(const char *name, const char *origin, fm_error *er
 
 static fm_status check_feed(const char *name, const char *origin, fm_error *err)
 {
-    const char *known[32];
-    size_t count = 0;
+    const char *known[FM_FEED_COUNT + 1];
     if (feed_from_name(name) != 0)
         return FM_OK;
-    for (uint32_t feed = 1; (feed & FM_FEEDS_ALL) != 0; feed <<= 1)
-        known[count++] = feed_name(feed);
+    const size_t count = feed_names(known, FM_FEEDS_ALL);
     return unknown(origin, "feed", name, text_nearest(name, known, count), err);
 }
 

@@ -67,11 +67,6 @@ void plan_free(fm_plan *plan);
  * asked for more, since all launches of it would say the same. */
 uint32_t plan_case_launches(const fm_plan *plan, size_t index);
 
-/* Feeds by name, "raster", "compute-layer", ...: one bit of FM_FEED_*, 0 for no such feed. */
-uint32_t feed_from_name(const char *name);
-/* The name of one FM_FEED_* bit. */
-const char *feed_name(uint32_t feed);
-
 /* Names and files of all scenes in the scene folders; lists end with NULL inside. */
 typedef struct fm_scene_names {
     char (*names)[128];

@@ -5,37 +5,8 @@
 #include <xxhash.h>
 
 #include "device/device.h"
+#include "model/feeds.h"
 #include "plugin/culling.h"
-
-static const struct {
-    uint32_t feed;
-    const char *name;
-} feed_names[] = {
-    { FM_FEED_RASTER, "raster" },
-    { FM_FEED_COMPUTE_LAYER, "compute-layer" },
-    { FM_FEED_COMPUTE_PIXEL, "compute-pixel" },
-    { FM_FEED_COMPUTE_ADJACENT, "compute-adjacent" },
-    { FM_FEED_TRIANGLES, "triangles" },
-    { FM_FEED_FRAMES, "frames" },
-};
-enum { FEED_COUNT = sizeof feed_names / sizeof feed_names[0] };
-_Static_assert(FM_FEEDS_ALL == (1u << FEED_COUNT) - 1, "one name a feed");
-
-uint32_t feed_from_name(const char *name)
-{
-    for (size_t i = 0; i < FEED_COUNT; i++)
-        if (strcmp(feed_names[i].name, name) == 0)
-            return feed_names[i].feed;
-    return 0;
-}
-
-const char *feed_name(uint32_t feed)
-{
-    for (size_t i = 0; i < FEED_COUNT; i++)
-        if (feed_names[i].feed == feed)
-            return feed_names[i].name;
-    return "none";
-}
 
 static const char *sweep_value(const fm_plan_point *point, size_t i)
 {
@@ -145,15 +116,11 @@ static void skip_list(char *skip, size_t room, const char *start, const char *co
 
 static void skip_for_feed(fm_case *made, const fm_method_desc *method)
 {
-    const char *taken[FEED_COUNT + 1] = { NULL };
+    const char *taken[FM_FEED_COUNT + 1];
     char start[128];
-    const uint32_t feeds = method->feeds != 0 ? method->feeds : FM_FEEDS_FRAGMENTS;
-    size_t count = 0;
-    if ((feeds & feed_from_name(made->feed)) != 0)
+    const size_t count = feed_names(taken, method_feeds(method));
+    if ((method_feeds(method) & feed_from_name(made->feed)) != 0)
         return;
-    for (size_t i = 0; i < FEED_COUNT; i++)
-        if ((feeds & feed_names[i].feed) != 0)
-            taken[count++] = feed_names[i].name;
     snprintf(start, sizeof start, "feed '%s': the method takes", made->feed);
     skip_list(made->skip, sizeof made->skip, start, taken, count);
 }

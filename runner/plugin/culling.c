@@ -5,6 +5,7 @@
 
 #include "device/device.h"
 #include "instance/shader.h"
+#include "model/formats.h"
 #include "model/formula.h"
 
 /* Names beginning with fm_ are the runner's: no plugin has them. */
@@ -132,7 +133,7 @@ static const char *largest_buffer(const fm_method_desc *method, const fm_culling
             resource->ping_pong || resource->shares != NULL)
             continue;
         const uint64_t bytes = formula_elements(method, &resource->extent, &workload) *
-                               fm_element_bytes(resource->element);
+                               element_bytes(resource->element);
         if (bytes <= most)
             continue;
         largest = resource->name;

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "base/text.h"
+#include "model/feeds.h"
 #include "plan/plan.h"
 #include "plugin.h"
 
@@ -171,8 +172,7 @@ fm_status plugin_list_get(const fm_plugin_entry **entry, const fm_plugin_list *l
 
 static bool is_floor(const fm_method_desc *method, uint32_t feed)
 {
-    const uint32_t feeds = method->feeds != 0 ? method->feeds : FM_FEEDS_FRAGMENTS;
-    return (method->traits & FM_TRAIT_FLOOR) != 0 && (feeds & feed) != 0;
+    return (method->traits & FM_TRAIT_FLOOR) != 0 && (method_feeds(method) & feed) != 0;
 }
 
 fm_status plugin_list_floor(const fm_plugin **plugin, const fm_plugin_list *list, uint32_t feed,
@@ -184,6 +184,6 @@ fm_status plugin_list_floor(const fm_plugin **plugin, const fm_plugin_list *list
             *plugin = list->entries[i].plugin;
     if (*plugin == NULL)
         return fm_fail(err, FM_INVALID, "no plugin is the floor of feed %s: is '%s' built?",
-                       feed_name(feed), feed == FM_FEED_TRIANGLES ? "null-triangles" : "null");
+                       feed_name(feed), feed_info(feed)->floor);
     return FM_OK;
 }

@@ -1,4 +1,5 @@
 #include "request.h"
+#include "model/feeds.h"
 
 #include <ctype.h>
 #include <jansson.h>
@@ -49,7 +50,8 @@ fm_status request_write(const char *path, const fm_request *request, fm_error *e
 static void truth_name(char name[200], const fm_case *of)
 {
     char hash[17];
-    const bool is_shared = strcmp(of->feed, "raster") == 0 || strncmp(of->feed, "compute-", 8) == 0;
+    const fm_feed_info *feed = feed_info(feed_from_name(of->feed));
+    const bool is_shared = feed != NULL && feed->is_of_rasteriser;
     settings_scene_hash(hash, &of->settings);
     snprintf(name, 200, "%s-%s%s%s", hash, of->device, is_shared ? "" : "-",
              is_shared ? "" : of->feed);
@@ -66,7 +68,7 @@ static fm_status find_floor(fm_truth_job *job, const fm_case *of, const fm_plugi
     if (job->floor == NULL)
         job->floor = "";
     if (of->skip[0] != '\0' || job->floor[0] != '\0' ||
-        feed_from_name(of->feed) == FM_FEED_FRAMES) /* no times, no floor */
+        !feed_info(feed_from_name(of->feed))->has_floor)
         return FM_OK;
     const fm_status status = plugin_list_floor(&floor, plugins, feed_from_name(of->feed), err);
     if (status == FM_OK)

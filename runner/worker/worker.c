@@ -10,6 +10,7 @@
 #include "answer.h"
 #include "device/device.h"
 #include "measure.h"
+#include "model/feeds.h"
 #include "plugin/culling.h"
 #include "plugin/plugin.h"
 #include "technique_job.h"

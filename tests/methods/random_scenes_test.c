@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "kit/scene_kit.h"
+#include "model/feeds.h"
 #include "random_kit.h"
 
 enum { LAYER_SCENES = 200, SCENES = LAYER_SCENES + 1, FAILURES_SHOWN = 20, TRIES = 4 };

@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "kit/scene_kit.h"
+#include "model/feeds.h"
 
 static const double image_tolerance = 1e-6;
 

@@ -11,6 +11,7 @@
 
 #include "base/text.h"
 #include "fragmark/technique.h"
+#include "model/feeds.h"
 #include "plan/plan.h"
 
 static const fm_method_desc kb_method = {

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "model/formats.h"
 
 enum { DUMMY_RANGE_BYTES = 1 << 30 };
 
@@ -211,8 +212,8 @@ static fm_status image_create(fm_image_resource **image, fm_device *device,
     fm_image_resource *made = calloc(1, sizeof *made);
     if (made == NULL)
         return fm_fail(err, FM_NO_MEMORY, "image '%s': its handle", desc->name);
-    made->bytes = (uint64_t)desc->width_px * desc->height_px * layers * samples *
-                  fm_format_bytes(desc->format);
+    made->bytes =
+        (uint64_t)desc->width_px * desc->height_px * layers * samples * format_bytes(desc->format);
     made->owner = desc->owner;
     ledger_add(&device->ledger, made->owner, made->bytes);
     *image = made;

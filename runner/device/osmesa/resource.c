@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "context.h"
+#include "model/formats.h"
 
 static const osmesa_format formats[] = {
     [FM_FORMAT_NONE] = { .internal = GL_NONE },
@@ -198,8 +199,8 @@ fm_status osmesa_image_create(fm_image_resource **image, fm_device *device,
     made->format = desc->format;
     made->layers = layers;
     made->owner = desc->owner;
-    made->bytes = (uint64_t)desc->width_px * desc->height_px * layers * samples *
-                  fm_format_bytes(desc->format);
+    made->bytes =
+        (uint64_t)desc->width_px * desc->height_px * layers * samples * format_bytes(desc->format);
     create_texture(made, &self->gl, desc, samples);
     status = check_storage(&self->gl, "image", desc->name, made->bytes, err);
     if (status != FM_OK) {

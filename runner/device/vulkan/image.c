@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "context.h"
+#include "model/formats.h"
 
 enum { SAMPLES_MAX = 16 };
 
@@ -225,8 +226,8 @@ fm_status vulkan_image_create(fm_image_resource **image, fm_device *device,
     made->owner = desc->owner;
     made->can_store = (usage & VK_IMAGE_USAGE_STORAGE_BIT) != 0;
     snprintf(made->name, sizeof made->name, "%s", desc->name);
-    made->bytes = (uint64_t)desc->width_px * desc->height_px * layers * samples *
-                  fm_format_bytes(desc->format);
+    made->bytes =
+        (uint64_t)desc->width_px * desc->height_px * layers * samples * format_bytes(desc->format);
     status = make(made, self, desc, usage, layers, err);
     if (status != FM_OK)
         goto out;
