@@ -15,7 +15,7 @@ void builder_begin(fm_builder *b, const fm_settings *settings, const fm_mesh_sin
     b->err = err;
     b->status = FM_OK;
     b->random = settings->seed;
-    b->frame = FM_FRAME_UNIT;
+    b->pose = FM_POSE_UNIT;
     b->colour = FM_STONE;
     b->vertex_count = b->index_count = b->parts = 0;
     b->vertices_held = b->indices_held = 0;
@@ -74,10 +74,10 @@ void build_part(fm_builder *b)
     b->parts++;
 }
 
-static vec3 turned(const fm_frame *frame, vec3 v)
+static vec3 turned(const fm_pose *pose, vec3 v)
 {
-    const vec3 x = { v.x * frame->x.x, v.x * frame->x.y, v.x * frame->x.z };
-    return plus_scaled(plus_scaled(x, frame->y, v.y), frame->z, v.z);
+    const vec3 x = { v.x * pose->x.x, v.x * pose->x.y, v.x * pose->x.z };
+    return plus_scaled(plus_scaled(x, pose->y, v.y), pose->z, v.z);
 }
 
 static void widen(fm_box *box, vec3 p)
@@ -91,13 +91,13 @@ static void widen(fm_box *box, vec3 p)
 
 uint32_t build_vertex(fm_builder *b, vec3 position, vec3 normal)
 {
-    const vec3 p = plus(turned(&b->frame, position), b->frame.origin);
+    const vec3 p = plus(turned(&b->pose, position), b->pose.origin);
     if (b->sink == NULL)
         widen(&b->box, p);
     else
         b->vertices[b->vertices_held++] =
             (fm_vertex){ { (float)p.x, (float)p.y, (float)p.z },
-                         shade(turned(&b->frame, normal), b->colour, b->settings->alpha) };
+                         shade(turned(&b->pose, normal), b->colour, b->settings->alpha) };
     b->vertex_count++;
     if (b->vertices_held == BUILDER_BLOCK)
         flush_vertices(b);

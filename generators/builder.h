@@ -12,10 +12,10 @@
 enum { BUILDER_BLOCK = 8192 };
 
 /* Where a piece stands: local x, y, z to the scene. Axes may have any length. */
-typedef struct fm_frame {
+typedef struct fm_pose {
     vec3 origin, x, y, z;
-} fm_frame;
-#define FM_FRAME_UNIT ((fm_frame){ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } })
+} fm_pose;
+#define FM_POSE_UNIT ((fm_pose){ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } })
 
 typedef struct fm_builder {
     const fm_settings *settings;
@@ -24,7 +24,7 @@ typedef struct fm_builder {
     fm_status status;
     uint64_t random; /* state: random_next(&b->random) */
 
-    fm_frame frame;  /* of what follows; FM_FRAME_UNIT at first */
+    fm_pose pose;    /* of what follows; FM_POSE_UNIT at first */
     uint32_t colour; /* 0xBBGGRR of what follows; FM_STONE at first */
 
     uint32_t vertex_count, index_count; /* so far */

@@ -6,6 +6,8 @@
 #include <string.h>
 
 #include "procedural.h"
+#include "scene/mesh.h"
+#include "scene/placement.h"
 #include "turns.h"
 
 /* The cube reaches from -1 to 1. */

@@ -43,9 +43,9 @@ static void pipe(fm_builder *b, uint32_t colour, const vec3 p[4], double radius)
 }
 
 /* Local axes whose y is the cylinder's; shifted and, for valve gear, leaning by `lean` in x. */
-static fm_frame leaning(const fm_frame *f, vec3 at, double lean)
+static fm_pose leaning(const fm_pose *f, vec3 at, double lean)
 {
-    fm_frame moved = *f;
+    fm_pose moved = *f;
     moved.origin =
         plus_scaled(plus_scaled(plus_scaled(f->origin, f->x, at.x), f->y, at.y), f->z, at.z);
     moved.y = normalized(plus_scaled(f->y, f->x, lean));
@@ -54,7 +54,7 @@ static fm_frame leaning(const fm_frame *f, vec3 at, double lean)
 }
 
 /* Rocker box, push rod and spark plug of one valve: side is -1 or 1. */
-static void valve_gear(fm_builder *b, const fm_frame *f, double side)
+static void valve_gear(fm_builder *b, const fm_pose *f, double side)
 {
     static const fm_ring box[5] = {
         { 0.08, 0 }, { 0.1, 0.03 }, { 0.1, 0.12 }, { 0.07, 0.16 }, { 0, 0.17 }
@@ -62,16 +62,16 @@ static void valve_gear(fm_builder *b, const fm_frame *f, double side)
     static const fm_ring rod[2] = { { 0.022, 0 }, { 0.022, 0.98 } };
     static const fm_ring plug[6] = { { 0.03, 0 },     { 0.03, 0.05 },  { 0.018, 0.06 },
                                      { 0.018, 0.14 }, { 0.024, 0.15 }, { 0.024, 0.2 } };
-    b->frame = leaning(f, (vec3){ 0.15 * side, 1.56, 0 }, 0.35 * side);
+    b->pose = leaning(f, (vec3){ 0.15 * side, 1.56, 0 }, 0.35 * side);
     turned_part(b, painted, box, 5, 24);
-    b->frame = leaning(f, (vec3){ 0.1 * side, 0.6, 0.33 }, 0.08 * side);
+    b->pose = leaning(f, (vec3){ 0.1 * side, 0.6, 0.33 }, 0.08 * side);
     turned_part(b, dark, rod, 2, 12);
-    b->frame = leaning(f, (vec3){ 0.2 * side, 1.4, -0.05 }, 1.6 * side);
+    b->pose = leaning(f, (vec3){ 0.2 * side, 1.4, -0.05 }, 1.6 * side);
     turned_part(b, white, plug, 6, 16);
-    b->frame = *f;
+    b->pose = *f;
 }
 
-static void cylinder(fm_builder *b, const fm_frame *f)
+static void cylinder(fm_builder *b, const fm_pose *f)
 {
     static const fm_ring barrel[4] = {
         { 0.25, 0.56 }, { 0.25, 1.3 }, { 0.22, 1.31 }, { 0.22, 1.32 }
@@ -88,7 +88,7 @@ static void cylinder(fm_builder *b, const fm_frame *f)
     static const vec3 exhaust[4] = {
         { -0.2, 1.4, -0.2 }, { -0.3, 1.5, -0.4 }, { -0.3, 1.3, -0.7 }, { -0.05, 1.15, -0.72 }
     };
-    b->frame = *f;
+    b->pose = *f;
     turned_part(b, dark, flange, 4, 48);
     turned_part(b, steel, barrel, 4, 48);
     for (int i = 0; i < FINS; i++)
@@ -114,7 +114,7 @@ static void body(fm_builder *b)
     static const fm_ring rear[7] = { { 0.28, -0.44 }, { 0.46, -0.46 }, { 0.46, -0.62 },
                                      { 0.36, -0.66 }, { 0.36, -0.84 }, { 0.2, -0.95 },
                                      { 0, -0.97 } };
-    b->frame = (fm_frame){ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 0, 1 }, { 0, -1, 0 } };
+    b->pose = (fm_pose){ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 0, 1 }, { 0, -1, 0 } };
     turned_part(b, painted, crankcase, 6, 72);
     turned_part(b, steel, nose, 6, 72);
     turned_part(b, steel, shaft, 2, 32);
@@ -141,10 +141,10 @@ void engine_build(fm_builder *b)
     for (int i = 0; i < CYLINDERS; i++) {
         const double turns = (double)i / CYLINDERS;
         const vec3 out = { turn_sin(turns), turn_cos(turns), 0 };
-        const fm_frame f = { { 0, 0, 0 }, { out.y, -out.x, 0 }, out, { 0, 0, 1 } };
+        const fm_pose f = { { 0, 0, 0 }, { out.y, -out.x, 0 }, out, { 0, 0, 1 } };
         cylinder(b, &f);
     }
     body(b);
     collector(b);
-    b->frame = FM_FRAME_UNIT;
+    b->pose = FM_POSE_UNIT;
 }

@@ -40,14 +40,14 @@ static void lamp(fm_builder *b, double x, double y, double z)
         { 0.08, 0 }, { 0.08, 0.02 }, { 0.015, 0.03 }, { 0.015, 0.25 }
     };
     static const fm_ring shade[2] = { { 0.16, 0.2 }, { 0.09, 0.42 } };
-    const fm_frame room = b->frame;
+    const fm_pose room = b->pose;
     build_part(b);
-    b->frame.origin = (vec3){ room.origin.x + x, room.origin.y + y, room.origin.z + room.z.z * z };
+    b->pose.origin = (vec3){ room.origin.x + x, room.origin.y + y, room.origin.z + room.z.z * z };
     b->colour = metal;
     build_lathe(b, &(fm_lathe){ .profile = foot, .points = 4, .sides = 12 });
     b->colour = light;
     build_lathe(b, &(fm_lathe){ .profile = shade, .points = 2, .sides = 16, .is_open = true });
-    b->frame = room;
+    b->pose = room;
 }
 
 static void bed(fm_builder *b, double x, double z)
@@ -88,7 +88,7 @@ static void decoration(fm_builder *b)
     static const fm_ring globe[5] = {
         { 0, 2.2 }, { 0.15, 2.26 }, { 0.2, 2.36 }, { 0.12, 2.46 }, { 0.03, 2.5 }
     };
-    const fm_frame room = b->frame;
+    const fm_pose room = b->pose;
     build_part(b);
     b->colour = cloth;
     block(b, 1.0, joint, 2.3, 2.4, 0.02, 2.8);
@@ -100,9 +100,9 @@ static void decoration(fm_builder *b)
     block(b, wall + joint, 1.4, 3.0, 0.03, 0.6, 0.9);
     block(b, room_x - 0.06, 1.4, 2.4, 0.03, 0.7, 0.7);
     b->colour = light;
-    b->frame.origin = (vec3){ room.origin.x + 2.1, room.origin.y, room.origin.z + room.z.z * 3.4 };
+    b->pose.origin = (vec3){ room.origin.x + 2.1, room.origin.y, room.origin.z + room.z.z * 3.4 };
     build_lathe(b, &(fm_lathe){ .profile = globe, .points = 5, .sides = 16 });
-    b->frame = room;
+    b->pose = room;
 }
 
 /* The bath beside the door: two thin walls, tub and basin. */
@@ -151,8 +151,8 @@ static void room_walls(fm_builder *b)
 static void floor_of(fm_builder *b, int number)
 {
     const double deep = 2 * room_z + corridor;
-    b->frame = FM_FRAME_UNIT;
-    b->frame.origin = (vec3){ 0, number * storey - slab, 0 };
+    b->pose = FM_POSE_UNIT;
+    b->pose.origin = (vec3){ 0, number * storey - slab, 0 };
     build_part(b);
     b->colour = concrete;
     block(b, -0.4, 0, -0.5 * deep - 0.15, ROOMS * room_x + 0.8, slab - joint, deep + 0.3);
@@ -164,10 +164,10 @@ void hotel_build(fm_builder *b)
         floor_of(b, level);
         for (int side = -1; side <= 1; side += 2)
             for (int i = 0; i < ROOMS; i++) {
-                b->frame = (fm_frame){ { i * room_x, level * storey, 0.5 * corridor * side },
-                                       { 1, 0, 0 },
-                                       { 0, 1, 0 },
-                                       { 0, 0, side } };
+                b->pose = (fm_pose){ { i * room_x, level * storey, 0.5 * corridor * side },
+                                     { 1, 0, 0 },
+                                     { 0, 1, 0 },
+                                     { 0, 0, side } };
                 room_walls(b);
                 bath(b);
                 furniture(b);
@@ -176,5 +176,5 @@ void hotel_build(fm_builder *b)
             }
     }
     floor_of(b, STOREYS);
-    b->frame = FM_FRAME_UNIT;
+    b->pose = FM_POSE_UNIT;
 }

@@ -14,17 +14,17 @@ static const uint32_t stone = 0x96A5AA, bark = 0x324664;
 static const vec3 corners[WALLS + 1] = { { -4, 0, 3 }, { -3, 0, -1 }, { 2, 0, -2 }, { 4, 0, 2 } };
 
 /* A place on the wall, followed along its corners: `along` from 0 to WALLS. */
-static fm_frame place_of(double along)
+static fm_pose place_of(double along)
 {
     const int i = along < 0 ? 0 : along >= WALLS ? WALLS - 1 : (int)along;
     const vec3 from = corners[i], run = minus(corners[i + 1], from), up = { 0, 1, 0 };
-    fm_frame f = { .x = normalized(run), .y = up };
+    fm_pose f = { .x = normalized(run), .y = up };
     f.z = cross(f.x, f.y);
     f.origin = plus_scaled(from, run, along - i);
     return f;
 }
 
-static vec3 on_wall(const fm_frame *f, double height, double off)
+static vec3 on_wall(const fm_pose *f, double height, double off)
 {
     return plus_scaled(plus_scaled(f->origin, f->y, height), f->z, off);
 }
@@ -40,14 +40,14 @@ static void ruin(fm_builder *b)
         build_part(b);
         for (int j = 0; j < BLOCKS; j++) {
             const int courses = COURSES - (int)(4 * builder_random(b));
-            b->frame = place_of(i);
-            b->frame.x = run;
+            b->pose = place_of(i);
+            b->pose.x = run;
             for (int k = 0; k < courses; k++)
                 build_box(b, (vec3){ (j + 0.02) / BLOCKS, (k + 0.02) * high, -thickness },
                           (vec3){ (j + 0.98) / BLOCKS, (k + 0.98) * high, 0 });
         }
     }
-    b->frame = FM_FRAME_UNIT;
+    b->pose = FM_POSE_UNIT;
 }
 
 /* Five lobes around the foot at the origin, in the local plane z = 0, bent along the middle. */
@@ -77,7 +77,7 @@ static uint32_t leaf_colour(fm_builder *b)
 }
 
 /* Hangs from `foot`, away from the wall. */
-static void hang_leaf(fm_builder *b, const fm_frame *wall, vec3 foot)
+static void hang_leaf(fm_builder *b, const fm_pose *wall, vec3 foot)
 {
     const double size = leaf_size * builder_between(b, 0.5, 1);
     const vec3 tip = builder_within(b, (vec3){ -0.8, -1, 0.1 }, (vec3){ 0.8, 0.1, 0.9 });
@@ -91,14 +91,14 @@ static void hang_leaf(fm_builder *b, const fm_frame *wall, vec3 foot)
     const vec3 x = normalized(cross(y, z));
     z = cross(x, y);
     b->colour = leaf_colour(b);
-    b->frame = (fm_frame){ foot, plus_scaled((vec3){ 0 }, x, size),
-                           plus_scaled((vec3){ 0 }, y, size), plus_scaled((vec3){ 0 }, z, size) };
+    b->pose = (fm_pose){ foot, plus_scaled((vec3){ 0 }, x, size), plus_scaled((vec3){ 0 }, y, size),
+                         plus_scaled((vec3){ 0 }, z, size) };
     leaf(b);
-    b->frame = FM_FRAME_UNIT;
+    b->pose = FM_POSE_UNIT;
 }
 
 /* The same on the wall's other face. */
-static fm_frame behind(fm_frame f)
+static fm_pose behind(fm_pose f)
 {
     f.origin = plus_scaled(f.origin, f.z, -thickness);
     f.x = plus_scaled((vec3){ 0 }, f.x, -1);
@@ -107,7 +107,7 @@ static fm_frame behind(fm_frame f)
 }
 
 /* From the ground up and aside; towards its end it leaves the wall. */
-static int climb(vec3 path[POINTS], fm_frame walls[POINTS], fm_builder *b)
+static int climb(vec3 path[POINTS], fm_pose walls[POINTS], fm_builder *b)
 {
     const double length = 4.5; /* of a wall, about */
     double along = builder_between(b, 0, WALLS), height = 0, lean = builder_between(b, -0.6, 0.6);
@@ -132,7 +132,7 @@ static int climb(vec3 path[POINTS], fm_frame walls[POINTS], fm_builder *b)
 static void stem(fm_builder *b)
 {
     vec3 path[POINTS];
-    fm_frame walls[POINTS];
+    fm_pose walls[POINTS];
     const int points = climb(path, walls, b);
     if (points < 2)
         return;

@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "base/random.h"
-#include "scene/scene.h"
+#include "procedural.h"
+#include "scene/layers.h"
 
-static const uint32_t all_live = 0xFFFFFFFFu;
 static const uint64_t max_order_bytes = UINT64_C(2) << 30;
 enum { CLUSTERS = 8 };
 
@@ -21,33 +21,9 @@ static uint64_t stream(uint64_t seed, uint64_t number)
     return random_next(&state);
 }
 
-static uint32_t seed_word(uint64_t seed)
-{
-    return (uint32_t)(seed ^ seed >> 32);
-}
-
-/* The finaliser that methods/common/layers.glsl shares; see scene.h. */
-static uint32_t mix(uint32_t h)
-{
-    h ^= h >> 16;
-    h *= 0x7FEB352Du;
-    h ^= h >> 15;
-    h *= 0x846CA68Bu;
-    h ^= h >> 16;
-    return h;
-}
-
-bool layers_lives(const fm_scene *scene, uint32_t x, uint32_t y, uint32_t layer)
-{
-    const uint32_t h =
-        x + y * 0x9E3779B1u + layer * 0x85EBCA77u + seed_word(scene->settings.seed) * 0xC2B2AE3Du;
-    return !scene_is_layers(scene) || scene->survival_threshold == all_live ||
-           mix(h) < scene->survival_threshold;
-}
-
 static uint32_t threshold_of(double probability)
 {
-    return probability >= 1.0 ? all_live : (uint32_t)(probability * 4294967296.0);
+    return probability >= 1.0 ? LAYERS_ALL_LIVE : (uint32_t)(probability * 4294967296.0);
 }
 
 static uint32_t clamp_px(double size, uint32_t limit)
@@ -148,6 +124,8 @@ static void fill_depths(fm_scene *scene)
         case FM_DEPTHS_ENDS:
             scene->layers[i].depth = ends_depth(i, n);
             break;
+        case FM_DEPTHS_COUNT:
+            break;
         }
     }
     if (scene->settings.depths == FM_DEPTHS_SLOPED)
@@ -161,7 +139,7 @@ static uint32_t base_colour(const fm_settings *settings, uint32_t layer)
                                        0xC040C0, 0xD0C030, 0x4090F0, 0xC8C8C8 };
     switch (settings->colours) {
     case FM_COLOURS_HASH:
-        return mix(layer * 0x85EBCA77u + seed_word(settings->seed) * 0xC2B2AE3Du + 1u) & 0xFFFFFFu;
+        return layers_hash(1, 0, layer, settings->seed) & 0xFFFFFFu;
     case FM_COLOURS_CYCLE:
         return cycle[layer % 8];
     case FM_COLOURS_GREY:
@@ -231,6 +209,8 @@ static uint32_t max_layers(fm_depths depths)
         return CLUSTERS << 16;
     case FM_DEPTHS_ULP:
         return 1u << 23;
+    case FM_DEPTHS_COUNT:
+        break;
     }
     return 0;
 }
@@ -273,71 +253,4 @@ fm_status layers_generate(fm_scene *scene, fm_error *err)
     fill_colours(scene);
     fill_order(scene);
     return FM_OK;
-}
-
-uint32_t layers_border(uint32_t begin, uint32_t end, uint32_t i, uint32_t t)
-{
-    return begin + (i * (end - begin) + t / 2) / t;
-}
-
-/* The one cell whose borders hold the pixel; empty cells are stepped over. */
-static uint32_t cell_of(uint32_t begin, uint32_t end, uint32_t px, uint32_t t)
-{
-    uint32_t i = (uint32_t)((uint64_t)(px - begin) * t / (end - begin));
-    while (i > 0 && layers_border(begin, end, i, t) > px)
-        i--;
-    while (layers_border(begin, end, i + 1, t) <= px)
-        i++;
-    return i;
-}
-
-static float depth_at(const fm_layer *layer, double x_ndc, double y_ndc)
-{
-    return (float)((double)layer->depth + (double)layer->slope_x * x_ndc +
-                   (double)layer->slope_y * y_ndc);
-}
-
-static bool is_covered(const fm_rect *rect, uint32_t x, uint32_t y)
-{
-    return x >= rect->x0 && x < rect->x1 && y >= rect->y0 && y < rect->y1;
-}
-
-uint32_t layers_fragments(fm_fragment *fragments, const fm_scene *scene, uint32_t x, uint32_t y)
-{
-    const fm_rect *rect = &scene->rect;
-    const uint32_t t = scene->settings.tessellation;
-    if (!is_covered(rect, x, y))
-        return 0;
-    const double x_ndc = 2.0 * (x + 0.5) / scene->width_px - 1.0;
-    const double y_ndc = 2.0 * (y + 0.5) / scene->height_px - 1.0;
-    const uint32_t row = scene->order_rows == 1 ? 0
-                                                : cell_of(rect->y0, rect->y1, y, t) * t +
-                                                      cell_of(rect->x0, rect->x1, x, t);
-    uint32_t count = 0;
-    for (uint32_t slot = 0; slot < scene->n; slot++) {
-        const uint32_t layer = scene->order[(size_t)row * scene->n + slot];
-        if (layers_lives(scene, x, y, layer))
-            fragments[count++] = (fm_fragment){ depth_at(&scene->layers[layer], x_ndc, y_ndc),
-                                                scene->layers[layer].colour };
-    }
-    return count;
-}
-
-bool layers_tie(const fm_scene *scene)
-{
-    return scene->settings.depths == FM_DEPTHS_COPLANAR ||
-           scene->settings.depths == FM_DEPTHS_EQUAL || scene->settings.depths == FM_DEPTHS_SLOPED;
-}
-
-uint32_t layers_sorted(fm_fragment *fragments, const fm_scene *scene, uint32_t x, uint32_t y)
-{
-    uint32_t count = 0;
-    assert(!layers_tie(scene));
-    if (!is_covered(&scene->rect, x, y))
-        return 0;
-    for (uint32_t layer = 0; layer < scene->n; layer++)
-        if (layers_lives(scene, x, y, layer))
-            fragments[count++] =
-                (fm_fragment){ scene->layers[layer].depth, scene->layers[layer].colour };
-    return count;
 }

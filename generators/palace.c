@@ -28,7 +28,7 @@ static void column(fm_builder *b, double x, double y, double z, double height)
                                  { 0.5, height - 0.42 },
                                  { 0.5, height - 0.3 },
                                  { 0.38, height - 0.22 } };
-    b->frame.origin = (vec3){ x, y, z };
+    b->pose.origin = (vec3){ x, y, z };
     b->colour = gypsum;
     build_lathe(b, &(fm_lathe){ .profile = foot, .points = 2, .sides = 12 });
     b->colour = red;
@@ -36,23 +36,23 @@ static void column(fm_builder *b, double x, double y, double z, double height)
     b->colour = black;
     build_lathe(b, &(fm_lathe){ .profile = capital, .points = 4, .sides = 12 });
     build_box(b, (vec3){ -0.5, height - 0.2, -0.5 }, (vec3){ 0.5, height - joint, 0.5 });
-    b->frame = FM_FRAME_UNIT;
+    b->pose = FM_POSE_UNIT;
 }
 
 /* Two tips that lean outwards from a common foot. */
 static void horns(fm_builder *b, double x, double y, double z)
 {
     b->colour = gypsum;
-    b->frame.origin = (vec3){ x, y, z };
+    b->pose.origin = (vec3){ x, y, z };
     build_box(b, (vec3){ -0.9, 0, -0.2 }, (vec3){ 0.9, 0.3, 0.2 });
     for (int side = -1; side <= 1; side += 2) {
         static const fm_ring tip[3] = { { 0.26, 0 }, { 0.18, 0.7 }, { 0, 1.2 } };
-        b->frame = (fm_frame){
+        b->pose = (fm_pose){
             { x + 0.6 * side, y + 0.3 + joint, z }, { 1, 0, 0 }, { 0.25 * side, 1, 0 }, { 0, 0, 1 }
         };
         build_lathe(b, &(fm_lathe){ .profile = tip, .points = 3, .sides = 8 });
     }
-    b->frame = FM_FRAME_UNIT;
+    b->pose = FM_POSE_UNIT;
 }
 
 /* A storey of nx by nz rooms, seen from above. */
@@ -87,13 +87,13 @@ static void walls(fm_builder *b, const floor_plan *plan, bool along_x)
     for (int line = 0; line <= across; line++)
         for (int i = 0; i < along; i++) {
             const double from = i * room + gap, beside = line * room;
-            b->frame.origin = (vec3){ plan->x + (along_x ? from : beside), plan->y + slab + joint,
-                                      plan->z + (along_x ? beside : from) };
-            b->frame.x = along_x ? (vec3){ 1, 0, 0 } : (vec3){ 0, 0, 1 };
-            b->frame.z = along_x ? (vec3){ 0, 0, 1 } : (vec3){ 1, 0, 0 };
+            b->pose.origin = (vec3){ plan->x + (along_x ? from : beside), plan->y + slab + joint,
+                                     plan->z + (along_x ? beside : from) };
+            b->pose.x = along_x ? (vec3){ 1, 0, 0 } : (vec3){ 0, 0, 1 };
+            b->pose.z = along_x ? (vec3){ 0, 0, 1 } : (vec3){ 1, 0, 0 };
             wall_between(b, room - 2 * gap, line == 0 || line == across);
         }
-    b->frame = FM_FRAME_UNIT;
+    b->pose = FM_POSE_UNIT;
 }
 
 static void pillars(fm_builder *b, const floor_plan *plan)

@@ -1,4 +1,5 @@
 #include "procedural.h"
+#include "scene/placement.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -35,8 +36,6 @@ static fm_status build(fm_builder **builder, const fm_settings *settings, const 
 {
     void (*const make)(fm_builder *) = build_of(settings->generator);
     *builder = NULL;
-    if (make == NULL)
-        return fm_fail(err, FM_INVALID, "a scene that holds no mesh and makes none");
     fm_builder *b = malloc(sizeof *b);
     if (b == NULL)
         return fm_fail(err, FM_NO_MEMORY, "%zu bytes to build a mesh in", sizeof *b);
@@ -50,6 +49,14 @@ static fm_status build(fm_builder **builder, const fm_settings *settings, const 
     return status;
 }
 
+static fm_status make_mesh(const fm_scene *scene, const fm_mesh_sink *sink, fm_error *err)
+{
+    fm_builder *built;
+    const fm_status status = build(&built, &scene->settings, sink, err);
+    free(built);
+    return status;
+}
+
 fm_status procedural_generate(fm_scene *scene, fm_error *err)
 {
     fm_builder *counted;
@@ -59,15 +66,8 @@ fm_status procedural_generate(fm_scene *scene, fm_error *err)
     scene->vertex_count = counted->vertex_count;
     scene->index_count = counted->index_count;
     scene->parts = counted->parts;
+    scene->make_mesh = make_mesh;
     status = scene_place(scene, &scene->settings, &counted->box, err);
     free(counted);
-    return status;
-}
-
-fm_status procedural_stream(const fm_scene *scene, const fm_mesh_sink *sink, fm_error *err)
-{
-    fm_builder *built;
-    const fm_status status = build(&built, &scene->settings, sink, err);
-    free(built);
     return status;
 }

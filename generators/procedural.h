@@ -10,14 +10,15 @@
 #include "builder.h"
 #include "scene/scene.h"
 
-/* Fills what scene_place fills, and the counts: the mesh itself is left to procedural_stream. */
+/* Fills what scene_place fills, the counts, and make_mesh, which makes the mesh itself. */
 fm_status procedural_generate(fm_scene *scene, fm_error *err);
-/* scene_mesh of such a scene. */
-fm_status procedural_stream(const fm_scene *scene, const fm_mesh_sink *sink, fm_error *err);
-
 /* The mesh file settings.mesh inside a cube whose front covers settings.pixel_density of the
  * viewport; held, since a file is held. */
 fm_status bunny_in_cube_generate(fm_scene *scene, fm_error *err);
+
+/* The papers' synthetic scene: fills rect, layers, order and survival_threshold, which
+ * scene/layers.h reads. FM_INVALID: more layers than their depths can tell apart; FM_NO_MEMORY. */
+fm_status layers_generate(fm_scene *scene, fm_error *err);
 
 /* What each makes stands in its file. */
 void palace_build(fm_builder *b);

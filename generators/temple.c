@@ -32,13 +32,13 @@ static void column(fm_builder *b, double x, double z, double scale)
         shaft[i].y = joint + (top - 0.82 * scale - joint) * t;
     }
     build_part(b);
-    b->frame.origin = (vec3){ x, 0, z };
+    b->pose.origin = (vec3){ x, 0, z };
     b->colour = marble;
     build_lathe(b, &(fm_lathe){ .profile = shaft, .points = RINGS, .sides = FLUTES });
     build_lathe(b, &(fm_lathe){ .profile = echinus, .points = 4, .sides = FLUTES });
     build_box(b, (vec3){ -1.2 * foot, top - 0.38 * scale, -1.2 * foot },
               (vec3){ 1.2 * foot, top - joint, 1.2 * foot });
-    b->frame.origin = (vec3){ 0 };
+    b->pose.origin = (vec3){ 0 };
 }
 
 static void colonnade(fm_builder *b)
@@ -132,14 +132,14 @@ static void roof(fm_builder *b)
                 const double z = -0.5 * length + length * i / COLUMNS;
                 const double t = (double)row / ROWS, next = t + 1.05 / ROWS;
                 const double lift = row % 2 == 0 ? 0.12 : 0.2;
-                b->frame = (fm_frame){ { side * half * (1 - t), 8.4 + lift + rise * t, z },
-                                       { side * half * (t - next), rise * (next - t), 0 },
-                                       { 0, 1, 0 },
-                                       { 0, 0, 1 } };
+                b->pose = (fm_pose){ { side * half * (1 - t), 8.4 + lift + rise * t, z },
+                                     { side * half * (t - next), rise * (next - t), 0 },
+                                     { 0, 1, 0 },
+                                     { 0, 0, 1 } };
                 build_box(b, (vec3){ 0, 0, 0.02 }, (vec3){ 1, 0.06, length / COLUMNS - 0.02 });
             }
     }
-    b->frame = FM_FRAME_UNIT;
+    b->pose = FM_POSE_UNIT;
 }
 
 static void gables(fm_builder *b)

@@ -1,4 +1,5 @@
 #include "stage.h"
+#include "scene/layers.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -26,11 +27,6 @@ static const struct slot_words {
     [STAGE_CAPTURE_COUNTS] = { "fm_capture_counts", "uvec2" },
 };
 _Static_assert(sizeof slot_words / sizeof slot_words[0] == STAGE_SLOT_COUNT, "one each");
-
-static bool is_flat_layers(const fm_stage *stage)
-{
-    return scene_is_layers(stage->scene) && stage->scene->settings.depths != FM_DEPTHS_SLOPED;
-}
 
 fm_status slot_create_buffer(fm_slot *slot, fm_device *device, fm_buffers buffers,
                              const fm_buffer_desc *desc, fm_error *err)
@@ -321,7 +317,7 @@ fm_status stage_create(fm_stage **out, fm_device *device, const fm_scene *scene,
                                      .table_index = i,
                                      .in_table = true };
     const bool is_compute = (feed & (FM_FEED_RASTER | FM_FEED_TRIANGLES)) == 0;
-    stage->replays = is_compute && !is_flat_layers(stage);
+    stage->replays = is_compute && !layers_are_flat(&stage->scene->settings);
     fm_status status = create_shared(stage, err);
     if (status == FM_OK && feed == FM_FEED_TRIANGLES)
         status = look_at_triangles(stage, err);

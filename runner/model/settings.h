@@ -53,6 +53,7 @@ typedef enum fm_depths {
     FM_DEPTHS_EQUAL,     /* all layers at 1/2 */
     FM_DEPTHS_STEP24,    /* (i + 1) 2^-24: what 24 bits can tell apart */
     FM_DEPTHS_ENDS,      /* the first at exactly 0, the last at exactly 1, others uniform */
+    FM_DEPTHS_COUNT
 } fm_depths;
 
 typedef enum fm_colours {

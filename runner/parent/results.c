@@ -1,5 +1,6 @@
 #include "results.h"
 #include "base/csv.h"
+#include "scene/layers.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -227,13 +228,6 @@ static void worsen(fm_case_result *kept, uint32_t launch, fm_case_status status,
         kept->message[--length] = '\0';
 }
 
-/* Depths that tie are composited in either order: another image, and yet exact. */
-static bool depths_may_tie(const fm_settings *settings)
-{
-    return settings->generator != FM_GENERATOR_LAYERS || settings->depths == FM_DEPTHS_COPLANAR ||
-           settings->depths == FM_DEPTHS_EQUAL || settings->depths == FM_DEPTHS_SLOPED;
-}
-
 /* Only launch 0 is checked against truth; an exact method's later images must equal that one. */
 static void compare_image(fm_results *results, size_t case_index, uint32_t launch)
 {
@@ -242,7 +236,7 @@ static void compare_image(fm_results *results, size_t case_index, uint32_t launc
     const fm_plugin_entry *entry = plugin_list_find(results->plugins, measured->method);
     const char *checked = kept->launches[0].image_hash;
     if (launch == 0 || checked[0] == '\0' || kept->launches[launch].image_hash[0] == '\0' ||
-        entry == NULL || entry->plugin == NULL || depths_may_tie(&measured->settings))
+        entry == NULL || entry->plugin == NULL || layers_may_tie(&measured->settings))
         return;
     const uint32_t traits = entry->plugin->method->traits;
     if ((traits & FM_TRAIT_EXACT) == 0 || (traits & FM_TRAIT_RACY) != 0)

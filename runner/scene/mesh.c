@@ -1,3 +1,5 @@
+#include "mesh.h"
+
 #include <assimp/cimport.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
@@ -9,7 +11,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "scene.h"
 #include "shade.h"
 
 static const uint64_t max_indices = UINT64_C(1) << 31;

@@ -1,9 +1,9 @@
+#include "placement.h"
+
 /* Where a mesh's instances stand, and from where they are seen. */
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
-
-#include "scene.h"
 
 /* Columns of camera * translation; false: beyond a float's range. */
 static bool place(float clip_from_object[16], const double camera[16], const double offset[3])

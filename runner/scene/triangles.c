@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "layers.h"
+
 /* Corners of the two triangles of a quad (0 1 / 2 3), as stage.c indexes them. */
 static const uint32_t quad_corner[2][3] = { { 0, 1, 2 }, { 2, 1, 3 } };
 
@@ -35,7 +37,7 @@ static fm_clip_corner layer_corner(const fm_scene *scene, const fm_layer *plane,
                              plane->depth + plane->slope_x * ndc_x + plane->slope_y * ndc_y, 1.0f };
 }
 
-static void layer_triangle(fm_triangle *triangle, const fm_scene *scene, uint64_t number)
+static void layer_triangle(fm_clip_triangle *triangle, const fm_scene *scene, uint64_t number)
 {
     const uint32_t instance = (uint32_t)(number / triangles_per_instance(scene));
     const uint32_t primitive = (uint32_t)(number % triangles_per_instance(scene));
@@ -60,7 +62,7 @@ static fm_clip_corner mesh_corner(const float matrix[16], const float p[3])
     return (fm_clip_corner){ c[0], c[1], c[2], c[3] };
 }
 
-void triangle_of(fm_triangle *triangle, const fm_scene *scene, uint64_t number)
+void triangle_of(fm_clip_triangle *triangle, const fm_scene *scene, uint64_t number)
 {
     if (scene_is_layers(scene)) {
         layer_triangle(triangle, scene, number);
@@ -88,7 +90,7 @@ static void add_depth(fm_triangles_view *view, const fm_clip_corner *corner)
 fm_triangles_view triangles_view(const fm_scene *scene)
 {
     fm_triangles_view view = { .nearest = 1, .farthest = 0 };
-    fm_triangle triangle;
+    fm_clip_triangle triangle;
     for (uint64_t i = 0; i < scene->triangles; i++) {
         triangle_of(&triangle, scene, i);
         view.clips =

@@ -7,16 +7,16 @@
 #include "rasterise.h"
 #include "scene.h"
 
-typedef struct fm_triangle {
+typedef struct fm_clip_triangle {
     fm_clip_corner corners[3];
     uint32_t colour; /* the first corner's: flat */
     uint32_t layer;  /* of a layers scene: which fragments live depends on it */
-} fm_triangle;
+} fm_clip_triangle;
 
 /* Triangles of one instance of a draw: of one layer, of one cell (cell-major) or of the mesh. */
 uint32_t triangles_per_instance(const fm_scene *scene);
 /* The triangle of this place in drawing order, below scene->triangles. */
-void triangle_of(fm_triangle *triangle, const fm_scene *scene, uint64_t number);
+void triangle_of(fm_clip_triangle *triangle, const fm_scene *scene, uint64_t number);
 /* 2 / size as shaders are told it: pixels become NDC by one multiplication, on every device. */
 float triangles_ndc_step(uint32_t size_px);
 

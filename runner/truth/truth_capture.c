@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "instance/instance.h"
+#include "scene/layers.h"
 #include "truth_file.h"
 #include "truth_triangles.h"
 
@@ -284,14 +285,13 @@ fm_status truth_capture(const char *path, fm_device *device, const fm_scene *sce
     char partial[FM_PATH_MAX_BYTES + 16];
     const bool by_host = feed == FM_FEED_TRIANGLES;
     /* Flat layers replay from the recipe; only other scenes need the order of arrival. */
-    const bool is_flat = scene->settings.generator == FM_GENERATOR_LAYERS &&
-                         scene->settings.depths != FM_DEPTHS_SLOPED;
+    const bool is_flat = layers_are_flat(&scene->settings);
     truth_run capture = { .device = device,
                           .scene = scene,
                           .folders = { common_folder, common_folder },
                           .pixels = (uint64_t)scene->width_px * scene->height_px,
                           .keeps_arrival = !is_flat && !by_host,
-                          .is_known = is_flat && !by_host && !layers_tie(scene),
+                          .is_known = is_flat && !by_host && !layers_may_tie(&scene->settings),
                           .by_host = by_host,
                           .err = err };
     snprintf(partial, sizeof partial, "%s.partial", path);

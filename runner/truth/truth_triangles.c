@@ -2,12 +2,13 @@
 
 #include <string.h>
 
+#include "scene/layers.h"
 #include "scene/triangles.h"
 
 /* What the rasteriser's call for a fragment needs. */
 typedef struct truth_sink {
     const fm_scene *scene;
-    fm_triangle triangle;
+    fm_clip_triangle triangle;
     uint32_t primitive;
     uint32_t *counts;       /* counting */
     const truth_band *band; /* storing */

@@ -9,9 +9,7 @@
 
 #include "base/clock.h"
 #include "base/image.h"
-#include "generators/adversarial.h"
-#include "generators/frame_sequences.h"
-#include "scene/frame_stream.h"
+#include "generators/generate.h"
 #include "simulator/models/cycles.h"
 #include "simulator/models/energy.h"
 #include "simulator/tbr.h"
@@ -363,39 +361,13 @@ static fm_status finish(json_t *result, run_state *run, fm_error *err)
     return FM_OK;
 }
 
-static fm_status replay(fm_sequence **sequence, const fm_settings *settings, fm_error *err)
-{
-    const fm_stream_costs costs = {
-        .vertex_instructions = (uint16_t)settings->vertex_instructions,
-        .fragment_instructions = (uint16_t)settings->fragment_instructions,
-        .texture_bytes = settings->texture_bytes,
-    };
-    const fm_status status =
-        stream_open(sequence, settings->stream, settings->sequence_frames, &costs, err);
-    if (status != FM_OK || ((*sequence)->width_px == settings->width_px &&
-                            (*sequence)->height_px == settings->height_px))
-        return status;
-    return fm_fail(err, FM_INVALID, "%s: recorded at %u x %u px, asked for at %u x %u",
-                   settings->stream, (*sequence)->width_px, (*sequence)->height_px,
-                   settings->width_px, settings->height_px);
-}
-
-static fm_status make_sequence(fm_sequence **sequence, const fm_settings *settings, fm_error *err)
-{
-    if (settings->generator == FM_GENERATOR_STREAM)
-        return replay(sequence, settings, err);
-    if (settings->generator == FM_GENERATOR_ADVERSARIAL)
-        return adversarial_generate(sequence, settings, err);
-    return frames_generate(sequence, settings, err);
-}
-
 static fm_status start(run_state *run, fm_error *err)
 {
     const fm_technique_job *job = run->job;
     const fm_method_desc *method = job->method;
     fm_status status = model_table_read(&run->table, job->settings->model, err);
     if (status == FM_OK)
-        status = make_sequence(&run->sequence, job->settings, err);
+        status = sequence_create(&run->sequence, job->settings, err);
     if (status != FM_OK)
         return status;
     const uint32_t side = FM_TILE_SIDE;

@@ -9,6 +9,7 @@
 
 #include "answer.h"
 #include "device/device.h"
+#include "generators/generate.h"
 #include "measure.h"
 #include "model/feeds.h"
 #include "plugin/culling.h"

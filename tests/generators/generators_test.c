@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <xxhash.h>
 
+#include "generators/generate.h"
 #include "generators/turns.h"
 #include "kit/scene_kit.h"
 #include "scene/scene_file.h"

@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "generators/generate.h"
+#include "scene/layers.h"
 #include "scene/scene.h"
 
 static fm_settings layers_settings(uint32_t n)

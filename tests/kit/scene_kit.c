@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "generators/generate.h"
 #include "model/feeds.h"
 #include "plan/plan_case.h"
 #include "plugin/culling.h"

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "generators/generate.h"
 #include "kit/scene_kit.h"
 #include "scene/scene_file.h"
 

@@ -11,6 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "generators/generate.h"
 #include "scene/scene.h"
 
 static const char bunny[] = "/usr/share/glmark2/models/bunny.obj";

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "kit/scene_kit.h"
+#include "scene/layers.h"
 #include "truth/truth_file.h"
 
 #define SMALL "width_px=37 height_px=23 pixel_density=0.7 "

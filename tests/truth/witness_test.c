@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <unistd.h>
 
+#include "generators/generate.h"
 #include "kit/scene_kit.h"
 
 /* No scene here has more than a few dozen layers. */
