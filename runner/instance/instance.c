@@ -164,7 +164,6 @@ void instance_tell_fragments(fm_instance *instance, uint64_t fragments)
 
 fm_slot *instance_slot(fm_instance *instance, const char *name)
 {
-    bool is_previous;
-    const int index = resource_index(instance->method, name, &is_previous);
-    return index >= 0 ? &instance->resources[index][0] : NULL;
+    const resource_ref ref = resource_find(instance->method, name);
+    return ref.index >= 0 ? &instance->resources[ref.index][0] : NULL;
 }

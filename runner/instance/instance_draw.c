@@ -7,9 +7,7 @@
 static fm_slot *current_slot(fm_instance *instance, const built_pass *built, size_t use)
 {
     const resource_ref ref = built->refs[use];
-    if (ref.index < 0 || !instance->method->resources[ref.index].ping_pong)
-        return built->uses[use].slot;
-    return &instance->resources[ref.index][instance->parity ^ (ref.is_previous ? 1u : 0u)];
+    return ref.index < 0 ? built->uses[use].slot : resource_slot(instance, ref);
 }
 
 static uint32_t collect_binds(fm_bind binds[FM_MAX_BINDINGS], fm_instance *instance,
@@ -44,11 +42,9 @@ static uint32_t collect_binds(fm_bind binds[FM_MAX_BINDINGS], fm_instance *insta
 static fm_image_resource *current_image(fm_instance *instance, const char *name,
                                         const fm_resource **resource)
 {
-    bool is_previous;
-    const int index = resource_index(instance->method, name, &is_previous);
-    const uint32_t parity = instance->method->resources[index].ping_pong ? instance->parity : 0;
-    *resource = &instance->method->resources[index];
-    return instance->resources[index][parity ^ (is_previous ? 1u : 0u)].image;
+    const resource_ref ref = resource_find(instance->method, name);
+    *resource = &instance->method->resources[ref.index];
+    return resource_slot(instance, ref)->image;
 }
 
 static void fill_targets(fm_draw *draw, fm_instance *instance, const fm_pass *pass)
@@ -98,35 +94,6 @@ static fm_status draw_pass(fm_instance *instance, size_t index, uint32_t iterati
     return instance->device->ops->draw(instance->device, &draw, err);
 }
 
-uint64_t pass_units(const fm_instance *instance, const fm_pass *pass)
-{
-    const fm_workload *workload = &instance->workload;
-    const int total = total_index(instance->method, pass->count_total);
-    switch (pass->kind) {
-    case FM_PASS_SCENE:
-        return instance->desc.stage->invocations;
-    case FM_PASS_PIXELS:
-        return (uint64_t)workload->width_px * workload->height_px;
-    case FM_PASS_TILES:
-        return workload_tiles(workload);
-    case FM_PASS_TRIANGLES:
-        return workload->triangles;
-    case FM_PASS_TOTAL:
-        return total >= 0 ? instance->totals[total] : 0;
-    case FM_PASS_INDIRECT:
-    case FM_PASS_CLEAR:
-    case FM_PASS_HOST:
-    case FM_PASS_KIND_COUNT:
-        break;
-    }
-    return 0;
-}
-
-uint64_t pass_invocations(const fm_instance *instance, const fm_pass *pass)
-{
-    return pass_units(instance, pass) * pass_lanes(instance, pass);
-}
-
 fm_status pass_dispatch(fm_instance *instance, const fm_pass *pass, const built_pass *built,
                         uint64_t count, fm_error *err)
 {
@@ -135,9 +102,8 @@ fm_status pass_dispatch(fm_instance *instance, const fm_pass *pass, const built_
                              .binds = binds,
                              .bind_count = collect_binds(binds, instance, built) };
     if (pass->kind == FM_PASS_INDIRECT) {
-        bool is_previous;
-        const int index = resource_index(instance->method, pass->indirect, &is_previous);
-        dispatch.indirect = current_copy(instance, index)->buffer;
+        const resource_ref ref = resource_find(instance->method, pass->indirect);
+        dispatch.indirect = resource_slot(instance, ref)->buffer;
     } else {
         fm_status status = stage_groups(dispatch.groups, &instance->device->caps, count, err);
         if (status != FM_OK || count == 0)
@@ -150,11 +116,9 @@ static void clear_pass(fm_instance *instance, const fm_pass *pass)
 {
     fm_device *device = instance->device;
     for (int i = 0; i < FM_MAX_ACCESSES && pass->writes[i] != NULL; i++) {
-        bool is_previous;
-        const int index = resource_index(instance->method, pass->writes[i], &is_previous);
-        const fm_resource *resource = &instance->method->resources[index];
-        const uint32_t parity = resource->ping_pong ? instance->parity : 0;
-        const fm_slot *slot = &instance->resources[index][parity ^ (is_previous ? 1u : 0u)];
+        const resource_ref ref = resource_find(instance->method, pass->writes[i]);
+        const fm_resource *resource = &instance->method->resources[ref.index];
+        const fm_slot *slot = resource_slot(instance, ref);
         if (slot->image != NULL)
             device->ops->image_clear(device, slot->image, resource->clear_colour,
                                      resource->clear_depth, resource->clear_stencil);

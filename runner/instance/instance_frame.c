@@ -11,8 +11,7 @@ enum {
     COMBINE_TIMER = FM_MAX_TIMERS - 2,
     SPAN_TIMER = FM_MAX_TIMERS - 3,
     REDO_MAX = 8,
-    LOOP_MAX_DEFAULT = 65536,
-    SCENE_PARAM_NONE = 0
+    LOOP_MAX_DEFAULT = 65536
 };
 _Static_assert((int)SPAN_TIMER >= (int)FM_MAX_PASSES, "a timer for each pass");
 
@@ -89,12 +88,12 @@ static fm_status record(frame_run *frame)
     return status;
 }
 
-static void set_params(frame_run *frame, uint32_t iteration, uint32_t total)
+static void set_params(frame_run *frame, uint32_t iteration, uint32_t units)
 {
-    const bool is_total = total != SCENE_PARAM_NONE;
     const fm_params params = { .iteration = iteration,
-                               .band_first = is_total ? total : frame->band.first,
-                               .band_pixels = frame->band.pixels };
+                               .band_first = frame->band.first,
+                               .band_pixels = frame->band.pixels,
+                               .units = units };
     if (frame->params_are_set && memcmp(&params, &frame->params, sizeof params) == 0)
         return;
     frame->params = params;
@@ -116,8 +115,7 @@ static fm_status run_pass(frame_run *frame, size_t index, uint32_t iteration)
     if (status != FM_OK || pass->kind == FM_PASS_HOST)
         return status;
     frame->result->scene_passes += pass->kind == FM_PASS_SCENE && pass->cover == FM_COVER_NONE;
-    set_params(frame, iteration,
-               is_total ? (uint32_t)pass_units(instance, pass) : SCENE_PARAM_NONE);
+    set_params(frame, iteration, is_total ? (uint32_t)pass_units(instance, pass) : 0);
     pass_timer_begin(frame, (uint32_t)index);
     status = pass_issue(instance, index, iteration, frame->err);
     pass_timer_end(frame, (uint32_t)index);
@@ -145,13 +143,11 @@ static fm_status read_total(frame_run *frame, size_t index)
 {
     fm_instance *instance = frame->instance;
     const fm_total *total = &instance->method->totals[index];
-    bool is_previous;
     if (total->resource == NULL) {
         instance->totals[index] = frame->query[pass_index(instance->method, total->pass)];
         return FM_OK;
     }
-    const int resource = resource_index(instance->method, total->resource, &is_previous);
-    const fm_slot *slot = current_copy(instance, resource);
+    const fm_slot *slot = resource_slot(instance, resource_find(instance->method, total->resource));
     uint32_t word = 0;
     if (total->sum)
         return sum_elements(&instance->totals[index], frame, slot);

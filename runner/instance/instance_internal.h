@@ -1,6 +1,14 @@
-/* Shared by instance.c (set-up), instance_passes.c (pipelines), instance_source.c (GLSL),
- * instance_resources.c (buffers), instance_frame.c (frames) and instance_draw.c (one pass of one);
- * nobody else. */
+/* What the files behind instance.h share; nobody else includes it. From below:
+ *   pass_facts.c           what is true of a pass on this device
+ *   pass_uses.c            the resources that a pass uses, and their bindings
+ *   pass_define.c          its #defines
+ *   instance_source.c      its GLSL
+ *   instance_passes.c      its pipelines
+ *   instance_resources.c   buffers, images, locks and the table of lengths
+ *   instance_bytes.c       how many bytes they are
+ *   instance_draw.c        one pass of a frame that is being recorded
+ *   instance_frame.c       frames
+ *   instance.c             set-up and its end */
 #ifndef FM_INSTANCE_INTERNAL_H
 #define FM_INSTANCE_INTERNAL_H
 
@@ -63,23 +71,39 @@ void resources_destroy(fm_instance *instance);
 uint32_t resource_samples(const fm_instance *instance, const fm_resource *resource);
 uint64_t resource_elements(const fm_instance *instance, size_t index);
 fm_status table_upload(fm_instance *instance, fm_error *err);
-int resource_index(const fm_method_desc *method, const char *name, bool *is_previous);
+/* The reference that a name in a pass means; index -1: there is no such resource. */
+resource_ref resource_find(const fm_method_desc *method, const char *name);
 int pass_index(const fm_method_desc *method, const char *name);
 
-/* The copy of a resource that the running iteration writes. */
-static inline fm_slot *current_copy(fm_instance *instance, int index)
+/* The slot that a reference means while the running iteration lasts. Ping-pong resources have two
+ * copies: the one that is written, and the one that the last iteration wrote. */
+static inline fm_slot *resource_slot(fm_instance *instance, resource_ref ref)
 {
-    const bool is_double = instance->method->resources[index].ping_pong;
-    return &instance->resources[index][is_double ? instance->parity : 0];
+    const bool is_double = instance->method->resources[ref.index].ping_pong;
+    const uint32_t written = is_double ? instance->parity : 0;
+    return &instance->resources[ref.index][written ^ (ref.is_previous ? 1u : 0u)];
 }
 
-/* instance_draw.c. The frame is being recorded. */
+/* pass_facts.c */
+/* A draw; else a dispatch. */
+bool pass_is_drawn(const fm_instance *instance, const fm_pass *pass);
+/* As in method.h: narrow_only. */
+bool instance_is_narrow(const fm_instance *instance);
+/* Not run on this device. */
+bool pass_is_left_out(const fm_instance *instance, const fm_pass *pass);
+/* Its shader sees the scene's triangles. */
+bool pass_reads_triangles(const fm_instance *instance, const fm_pass *pass);
+/* Its store() is guarded by the device's interlock, not by a spin lock. */
+bool pass_has_interlock(const fm_instance *instance, const fm_pass *pass);
+/* The first pass that emits: it starts the picture. */
+bool pass_emits_first(const fm_instance *instance, const fm_pass *pass);
+/* What a scene pass draws. */
+fm_geometry pass_geometry(const fm_instance *instance, const fm_pass *pass);
+/* Invocations of each unit. */
+uint32_t pass_lanes(const fm_instance *instance, const fm_pass *pass);
 /* Pixels, tiles, triangles, ... of a dispatch, and its invocations: lanes for each. */
 uint64_t pass_units(const fm_instance *instance, const fm_pass *pass);
 uint64_t pass_invocations(const fm_instance *instance, const fm_pass *pass);
-fm_status pass_issue(fm_instance *instance, size_t index, uint32_t iteration, fm_error *err);
-fm_status pass_dispatch(fm_instance *instance, const fm_pass *pass, const built_pass *built,
-                        uint64_t count, fm_error *err);
 
 static inline bool pass_is_scene(const fm_pass *pass)
 {
@@ -90,20 +114,27 @@ static inline bool pass_has_fixed_function(const fm_pass *pass)
     return pass->targets[0].resource != NULL || pass->state.depth_stencil != NULL;
 }
 
+/* pass_uses.c: fills uses, refs and counts of a built pass; adds one of the stage's slots. */
+void pass_use_stage(built_pass *built, fm_instance *instance, int slot, uint32_t access);
+void pass_collect_uses(built_pass *built, fm_instance *instance, const fm_pass *pass);
+
+/* pass_define.c */
+void pass_define(fm_text *text, const fm_instance *instance, const fm_pass *pass);
+
 /* instance_source.c: the fragment or compute shader of a pass. */
 fm_status pass_source(fm_text *text, const built_pass *built, const fm_instance *instance,
                       const fm_pass *pass, fm_error *err);
 
 /* instance_passes.c */
-bool instance_is_narrow(const fm_instance *instance); /* as in method.h: narrow_only */
-bool pass_is_left_out(const fm_instance *instance, const fm_pass *pass); /* on this device */
-/* Whether its shader sees the scene's triangles. */
-bool pass_reads_triangles(const fm_instance *instance, const fm_pass *pass);
-/* Invocations of each unit. */
-uint32_t pass_lanes(const fm_instance *instance, const fm_pass *pass);
 fm_status passes_create(fm_instance *instance, fm_error *err);
 void passes_destroy(fm_instance *instance);
-/* What the scene pass draws. */
-fm_geometry pass_geometry(const fm_instance *instance, const fm_pass *pass);
+
+/* instance_bytes.c: of the spin locks; 0 without them. */
+uint64_t lock_bytes(const fm_instance *instance);
+
+/* instance_draw.c. The frame is being recorded. */
+fm_status pass_issue(fm_instance *instance, size_t index, uint32_t iteration, fm_error *err);
+fm_status pass_dispatch(fm_instance *instance, const fm_pass *pass, const built_pass *built,
+                        uint64_t count, fm_error *err);
 
 #endif

@@ -5,134 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool is_drawn(const fm_instance *instance, const fm_pass *pass)
-{
-    if (pass_is_scene(pass))
-        return instance->desc.stage->feed == FM_FEED_RASTER;
-    return pass->kind == FM_PASS_PIXELS &&
-           (pass_has_fixed_function(pass) ||
-            instance->desc.settings->full_screen == FM_FULL_SCREEN_FRAGMENT);
-}
-
-static bool is_flat(const fm_instance *instance, const fm_pass *pass)
-{
-    if (!pass->flat_tessellation || pass->flat_option == NULL)
-        return pass->flat_tessellation;
-    const char *value = instance->workload.option(&instance->workload, pass->flat_option);
-    return value != NULL && strcmp(value, "flat") == 0;
-}
-
-fm_geometry pass_geometry(const fm_instance *instance, const fm_pass *pass)
-{
-    switch (pass->cover) {
-    case FM_COVER_HULL:
-        return FM_GEOMETRY_HULL;
-    case FM_COVER_BOX:
-        return FM_GEOMETRY_BOX;
-    case FM_COVER_NONE:
-    case FM_COVER_COUNT:
-        break;
-    }
-    return is_flat(instance, pass) ? FM_GEOMETRY_FLAT : FM_GEOMETRY_SCENE;
-}
-
-/* ---- what a pass uses ---- */
-
-static void add_use(built_pass *built, fm_slot *slot, uint32_t access, bool is_coherent,
-                    resource_ref ref)
-{
-    for (size_t i = 0; i < built->use_count; i++) {
-        if (built->uses[i].slot == slot) {
-            built->uses[i].access |= access;
-            return;
-        }
-    }
-    if (built->use_count == INSTANCE_USES_MAX) {
-        built->is_overfull = true;
-        return;
-    }
-    built->refs[built->use_count] = ref;
-    built->uses[built->use_count++] =
-        (fm_use){ .slot = slot, .access = access, .is_coherent = is_coherent };
-}
-
-static void add_resource(built_pass *built, fm_instance *instance, const char *name,
-                         uint32_t access, bool is_coherent)
-{
-    resource_ref ref;
-    ref.index = resource_index(instance->method, name, &ref.is_previous);
-    add_use(built, &instance->resources[ref.index][ref.is_previous ? 1 : 0], access, is_coherent,
-            ref);
-}
-
-static void add_stage(built_pass *built, fm_instance *instance, int slot, uint32_t access)
-{
-    add_use(built, &instance->desc.stage->slots[slot], access, false,
-            (resource_ref){ .index = -1 });
-}
-
-static void add_emit(built_pass *built, fm_instance *instance)
-{
-    if (instance->desc.is_capture) {
-        add_stage(built, instance, STAGE_CAPTURE, FM_ACCESS_WRITE);
-        add_stage(built, instance, STAGE_CAPTURE_COUNTS, FM_ACCESS_READ | FM_ACCESS_WRITE);
-        return;
-    }
-    add_stage(built, instance, STAGE_OUTPUT, FM_ACCESS_READ | FM_ACCESS_WRITE);
-    if (instance->emits_back)
-        add_stage(built, instance, STAGE_OUTPUT_BACK, FM_ACCESS_READ | FM_ACCESS_WRITE);
-}
-
-bool instance_is_narrow(const fm_instance *instance)
-{
-    return instance->device->caps.subgroup_size < 32;
-}
-
-bool pass_is_left_out(const fm_instance *instance, const fm_pass *pass)
-{
-    return pass->narrow_only && !instance_is_narrow(instance);
-}
-
-uint32_t pass_lanes(const fm_instance *instance, const fm_pass *pass)
-{
-    const uint32_t lanes =
-        instance_is_narrow(instance) && pass->lanes_narrow > 0 ? pass->lanes_narrow : pass->lanes;
-    return lanes > 0 ? lanes : 1;
-}
-
-bool pass_reads_triangles(const fm_instance *instance, const fm_pass *pass)
-{
-    return instance->desc.stage->feed == FM_FEED_TRIANGLES &&
-           (pass->kind == FM_PASS_TRIANGLES || pass->kind == FM_PASS_TILES ||
-            pass->kind == FM_PASS_TOTAL || pass->kind == FM_PASS_INDIRECT);
-}
-
-static void collect_uses(built_pass *built, fm_instance *instance, const fm_pass *pass)
-{
-    const bool is_shared = pass_is_scene(pass); /* many invocations a pixel */
-    if (pass_is_scene(pass) || pass_reads_triangles(instance, pass)) {
-        built->use_count =
-            stage_uses(built->uses, instance->desc.stage, pass_geometry(instance, pass));
-        built->stage_use_count = built->use_count;
-        for (size_t i = 0; i < built->use_count; i++)
-            built->refs[i].index = -1;
-    }
-    for (int i = 0; i < FM_MAX_ACCESSES && pass->reads[i] != NULL; i++)
-        add_resource(built, instance, pass->reads[i], FM_ACCESS_READ, is_shared);
-    for (int i = 0; i < FM_MAX_ACCESSES && pass->writes[i] != NULL; i++)
-        add_resource(built, instance, pass->writes[i], FM_ACCESS_READ | FM_ACCESS_WRITE, is_shared);
-    if (pass->exclusive && instance->is_spin_locked)
-        add_use(built, &instance->locks, FM_ACCESS_READ | FM_ACCESS_WRITE, true,
-                (resource_ref){ .index = -1 });
-    add_stage(built, instance, STAGE_COUNTERS, FM_ACCESS_READ | FM_ACCESS_WRITE);
-    if (pass->emits)
-        add_emit(built, instance);
-    for (size_t i = 0; i < built->use_count; i++)
-        built->uses[i].binding = SHADER_BINDING_FIRST + (uint32_t)i;
-}
-
-/* ---- pipelines ---- */
-
 static void describe_bindings(fm_pipeline_desc *desc, const built_pass *built)
 {
     bool has_table = false;
@@ -156,9 +28,8 @@ static void describe_bindings(fm_pipeline_desc *desc, const built_pass *built)
 
 static uint32_t image_samples(const fm_instance *instance, const char *name, fm_format *format)
 {
-    bool is_previous;
     const fm_resource *resource =
-        &instance->method->resources[resource_index(instance->method, name, &is_previous)];
+        &instance->method->resources[resource_find(instance->method, name).index];
     *format = resource->format;
     return resource_samples(instance, resource);
 }
@@ -247,7 +118,7 @@ out:
 static fm_status build_pass(built_pass *built, fm_instance *instance, const fm_pass *pass,
                             fm_error *err)
 {
-    *built = (built_pass){ .is_drawn = is_drawn(instance, pass) };
+    *built = (built_pass){ .is_drawn = pass_is_drawn(instance, pass) };
     if (pass->kind == FM_PASS_HOST || pass->kind == FM_PASS_CLEAR)
         return FM_OK;
     if (pass->cover != FM_COVER_NONE) {
@@ -256,7 +127,7 @@ static fm_status build_pass(built_pass *built, fm_instance *instance, const fm_p
         if (status != FM_OK)
             return status;
     }
-    collect_uses(built, instance, pass);
+    pass_collect_uses(built, instance, pass);
     if (built->is_overfull)
         return fm_fail(err, FM_UNSUPPORTED,
                        "%s: pass '%s': more than %d resources, the feed's own included",
@@ -272,9 +143,9 @@ static fm_status build_combine(fm_instance *instance, fm_error *err)
                                   .shader = "common/combine.glsl" };
     built_pass *built = &instance->combine;
     *built = (built_pass){ 0 };
-    collect_uses(built, instance, &pass);
-    add_stage(built, instance, STAGE_OUTPUT, FM_ACCESS_READ | FM_ACCESS_WRITE);
-    add_stage(built, instance, STAGE_OUTPUT_BACK, FM_ACCESS_READ);
+    pass_collect_uses(built, instance, &pass);
+    pass_use_stage(built, instance, STAGE_OUTPUT, FM_ACCESS_READ | FM_ACCESS_WRITE);
+    pass_use_stage(built, instance, STAGE_OUTPUT_BACK, FM_ACCESS_READ);
     for (size_t i = 0; i < built->use_count; i++)
         built->uses[i].binding = SHADER_BINDING_FIRST + (uint32_t)i;
     return create_pipelines(built, instance, &pass, err);

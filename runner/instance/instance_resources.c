@@ -10,18 +10,19 @@ enum { HOST_READ_BYTES_MAX = 16 << 20 };
 
 static const char previous_suffix[] = "_previous";
 
-int resource_index(const fm_method_desc *method, const char *name, bool *is_previous)
+resource_ref resource_find(const fm_method_desc *method, const char *name)
 {
     size_t length = strlen(name);
     const size_t suffix = sizeof previous_suffix - 1;
-    *is_previous = length > suffix && strcmp(name + length - suffix, previous_suffix) == 0;
-    if (*is_previous)
+    resource_ref ref = { .index = -1 };
+    ref.is_previous = length > suffix && strcmp(name + length - suffix, previous_suffix) == 0;
+    if (ref.is_previous)
         length -= suffix;
     for (int i = 0; i < FM_MAX_RESOURCES && method->resources[i].name != NULL; i++)
         if (strlen(method->resources[i].name) == length &&
             memcmp(method->resources[i].name, name, length) == 0)
-            return i;
-    return -1;
+            ref.index = i;
+    return ref;
 }
 
 int pass_index(const fm_method_desc *method, const char *name)
@@ -118,12 +119,11 @@ static fm_status create_resource(fm_instance *instance, size_t index, fm_error *
 
 static fm_status create_locks(fm_instance *instance, fm_error *err)
 {
-    const uint64_t pixels = (uint64_t)instance->workload.width_px * instance->workload.height_px;
     const fm_buffer_desc desc = { .name = "fm_locks",
-                                  .bytes = pixels * 4,
+                                  .bytes = lock_bytes(instance),
                                   .owner = FM_OWNER_METHOD };
     slot_destroy(&instance->locks, instance->device);
-    instance->locks.length = pixels;
+    instance->locks.length = desc.bytes / sizeof(uint32_t);
     fm_status status = slot_create_buffer(&instance->locks, instance->device,
                                           instance->desc.settings->buffers, &desc, err);
     fm_frame_times times;
@@ -232,48 +232,4 @@ fm_status table_upload(fm_instance *instance, fm_error *err)
     table_line(&lines[instance->locks.table_index], instance, &instance->locks);
     return instance->device->ops->buffer_write(instance->device, instance->table, 0, lines,
                                                sizeof lines, err);
-}
-
-uint64_t instance_bytes_predicted(const fm_instance *instance)
-{
-    const uint64_t pixels = (uint64_t)instance->workload.width_px * instance->workload.height_px;
-    const uint64_t locks = instance->is_spin_locked ? pixels * 4 : 0;
-    return formula_sum(formula_bytes(instance->method, &instance->workload), locks);
-}
-
-/* Bytes of a resource's elements that hold something: never more than there are. */
-static uint64_t used_of(const fm_instance *instance, size_t index, const fm_workload *workload)
-{
-    const fm_resource *resource = &instance->method->resources[index];
-    const uint64_t used = formula_used_bytes(resource, workload);
-    const uint64_t there = instance->resources[index][0].length * element_bytes(resource->element);
-    return resource->kind == FM_RESOURCE_BUFFER && used > there ? there : used;
-}
-
-/* What two buffers share counts once. */
-static uint64_t used_with_sharers(const fm_instance *instance, size_t index,
-                                  const fm_workload *workload)
-{
-    const char *name = instance->method->resources[index].name;
-    uint64_t bytes = used_of(instance, index, workload);
-    for (size_t i = 0; i < instance->resource_count; i++) {
-        const fm_resource *other = &instance->method->resources[i];
-        if (other->shares == NULL || strcmp(other->shares, name) != 0)
-            continue;
-        const uint64_t shared = used_of(instance, i, workload);
-        bytes = shared > bytes ? shared : bytes;
-    }
-    return bytes;
-}
-
-uint64_t instance_bytes_used(const fm_instance *instance, uint64_t fragments_kept)
-{
-    fm_workload workload = instance->workload;
-    const uint64_t pixels = (uint64_t)workload.width_px * workload.height_px;
-    uint64_t bytes = instance->is_spin_locked ? pixels * 4 : 0;
-    workload.fragments_kept = fragments_kept;
-    for (size_t i = 0; i < instance->resource_count; i++)
-        if (instance->method->resources[i].shares == NULL)
-            bytes += used_with_sharers(instance, i, &workload);
-    return bytes;
 }

@@ -1,5 +1,6 @@
 #include "shader.h"
 
+#include <ctype.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -172,7 +173,7 @@ void shader_declare(fm_text *text, const fm_use *uses, size_t count, const char 
 {
     text_add(text,
              "layout(std140, binding = %d) uniform fm_params_block {\n"
-             "    uint fm_iteration, fm_band_first, fm_band_pixels;\n};\n",
+             "    uint fm_iteration, fm_band_first, fm_band_pixels, fm_units;\n};\n",
              SHADER_BINDING_PARAMS);
     for (size_t i = 0; i < count; i++)
         if (uses[i].slot->by_address)
@@ -243,4 +244,12 @@ fm_status shader_add_file(fm_text *text, const fm_shader_folders *folders, const
                           fm_error *err)
 {
     return add_file(text, folders, file, 0, err);
+}
+
+void shader_name(char name[SHADER_NAME_BYTES], const char *text)
+{
+    size_t i = 0;
+    for (; text[i] != '\0' && i < SHADER_NAME_BYTES - 1; i++)
+        name[i] = isalnum((unsigned char)text[i]) ? text[i] : '_';
+    name[i] = '\0';
 }

@@ -30,16 +30,19 @@ typedef struct fm_use {
 } fm_use;
 
 enum {
-    SHADER_BINDING_PARAMS = 0, /* uniform: fm_iteration, fm_band_first, fm_band_pixels */
+    SHADER_BINDING_PARAMS = 0, /* uniform: fm_params */
     SHADER_BINDING_TABLE = 1,  /* uniform: address and length of each resource */
     SHADER_BINDING_FIRST = 2,
     SHADER_TABLE_STRIDE = 16,
     SHADER_TABLE_LINES = 64, /* at most */
+    SHADER_NAME_BYTES = 64,
 };
 
-/* What std140 block fm_params holds. */
+/* What std140 block fm_params holds: fm_iteration, fm_band_first, ... in shaders. */
 typedef struct fm_params {
-    uint32_t iteration, band_first, band_pixels, unused;
+    uint32_t iteration;               /* of the pass's innermost loop, from 0 */
+    uint32_t band_first, band_pixels; /* the pixels whose fragments a checked frame writes down */
+    uint32_t units;                   /* FM_PASS_TOTAL: what its total counts; else 0 */
 } fm_params;
 _Static_assert(sizeof(fm_params) == 16, "std140 block fm_params");
 
@@ -70,6 +73,8 @@ void shader_declare(fm_text *text, const fm_use *uses, size_t count, const char 
  * deep. */
 fm_status shader_add_file(fm_text *text, const fm_shader_folders *folders, const char *file,
                           fm_error *err);
+/* `text` as a GLSL identifier: what is no letter or digit becomes '_'; cut at 63 bytes. */
+void shader_name(char name[SHADER_NAME_BYTES], const char *text);
 /* Name of an element type in GLSL. */
 const char *shader_element_type(fm_element element);
 /* GLSL type of what a fragment shader writes to a target of this format. */

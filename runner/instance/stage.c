@@ -7,7 +7,6 @@
 
 /* 29 bits number a triangle; the 3 above, a part of a clipped one. */
 #define TRIANGLES_MAX ((1u << 29) - 1u)
-enum { INDICES_PER_QUAD = 6, CORNERS_PER_QUAD = 4 };
 
 static const struct slot_words {
     const char *name, *type;
@@ -28,26 +27,6 @@ static const struct slot_words {
 };
 _Static_assert(sizeof slot_words / sizeof slot_words[0] == STAGE_SLOT_COUNT, "one each");
 
-fm_status slot_create_buffer(fm_slot *slot, fm_device *device, fm_buffers buffers,
-                             const fm_buffer_desc *desc, fm_error *err)
-{
-    const bool has_address = (device->caps.features & FM_FEATURE_BUFFER_ADDRESS) != 0;
-    fm_buffer_desc chosen = *desc;
-    chosen.by_address =
-        buffers == FM_BUFFERS_ADDRESS || (buffers == FM_BUFFERS_AUTO && has_address &&
-                                          desc->bytes > device->caps.storage_range_bytes);
-    slot->by_address = chosen.by_address;
-    return device->ops->buffer_create(&slot->buffer, device, &chosen, err);
-}
-
-void slot_destroy(fm_slot *slot, fm_device *device)
-{
-    device->ops->buffer_destroy(device, slot->buffer);
-    device->ops->image_destroy(device, slot->image);
-    slot->buffer = NULL;
-    slot->image = NULL;
-}
-
 static fm_status create_slot(fm_stage *stage, int index, uint64_t bytes, const void *data,
                              bool host_reads, fm_error *err)
 {
@@ -60,38 +39,6 @@ static fm_status create_slot(fm_stage *stage, int index, uint64_t bytes, const v
     fm_status status = slot_create_buffer(slot, stage->device, stage->buffers, &desc, err);
     if (status == FM_OK && data != NULL)
         status = stage->device->ops->buffer_write(stage->device, slot->buffer, 0, data, bytes, err);
-    return status;
-}
-
-fm_status stage_create_geometry(fm_buffer **buffer, fm_device *device, const char *name,
-                                const void *data, uint64_t bytes, fm_error *err)
-{
-    const fm_buffer_desc desc = { .name = name,
-                                  .bytes = bytes,
-                                  .owner = FM_OWNER_RUNNER,
-                                  .is_vertex = strcmp(name, "vertices") == 0,
-                                  .is_index = strcmp(name, "vertices") != 0 };
-    fm_status status = device->ops->buffer_create(buffer, device, &desc, err);
-    if (status == FM_OK && data != NULL)
-        status = device->ops->buffer_write(device, *buffer, 0, data, bytes, err);
-    return status;
-}
-
-/* Two triangles for each quad of four corners (0 1 / 2 3). */
-static fm_status create_quad_indices(fm_buffer **buffer, fm_device *device, const char *name,
-                                     uint32_t quads, fm_error *err)
-{
-    static const uint32_t corner[INDICES_PER_QUAD] = { 0, 1, 2, 2, 1, 3 };
-    const uint64_t count = (uint64_t)quads * INDICES_PER_QUAD;
-    uint32_t *indices = malloc(count * sizeof *indices);
-    if (indices == NULL)
-        return fm_fail(err, FM_NO_MEMORY, "%" PRIu64 " indices", count);
-    for (uint64_t i = 0; i < count; i++)
-        indices[i] =
-            (uint32_t)(i / INDICES_PER_QUAD) * CORNERS_PER_QUAD + corner[i % INDICES_PER_QUAD];
-    fm_status status =
-        stage_create_geometry(buffer, device, name, indices, count * sizeof *indices, err);
-    free(indices);
     return status;
 }
 
@@ -113,9 +60,9 @@ static fm_status create_layers(fm_stage *stage, fm_error *err)
     if (status != FM_OK || stage->feed != FM_FEED_RASTER)
         return status;
     const uint32_t quads = scene_is_cell_major(stage->scene) ? n : cells(stage);
-    status = create_quad_indices(&stage->indices, stage->device, "indices", quads, err);
+    status = stage_create_quad_indices(&stage->indices, stage->device, quads, err);
     if (status == FM_OK)
-        status = create_quad_indices(&stage->flat_indices, stage->device, "flat indices", 1, err);
+        status = stage_create_quad_indices(&stage->flat_indices, stage->device, 1, err);
     return status;
 }
 
@@ -162,12 +109,11 @@ static fm_status create_mesh(fm_stage *stage, fm_error *err)
     if (stage->feed != FM_FEED_RASTER)
         return FM_OK;
     fm_status status =
-        stage_create_geometry(&stage->vertices, stage->device, "vertices", NULL,
+        stage_create_vertices(&stage->vertices, stage->device, NULL,
                               (uint64_t)scene->vertex_count * sizeof scene->vertices[0], err);
     if (status == FM_OK)
         status =
-            stage_create_geometry(&stage->indices, stage->device, "indices", NULL,
-                                  (uint64_t)scene->index_count * sizeof scene->indices[0], err);
+            stage_create_indices(&stage->indices, stage->device, NULL, scene->index_count, err);
     if (status == FM_OK)
         status = scene_mesh(scene, &sink, err);
     if (status == FM_OK)

@@ -104,9 +104,14 @@ static inline bool geometry_is_cover(fm_geometry geometry)
  */
 fm_status stage_create_cover(fm_stage *stage, fm_geometry geometry, fm_error *err);
 void stage_destroy_covers(fm_stage *stage);
-/* A vertex or index buffer; data NULL: to be written later. */
-fm_status stage_create_geometry(fm_buffer **buffer, fm_device *device, const char *name,
-                                const void *data, uint64_t bytes, fm_error *err);
+/* stage_buffers.c: vertex and index buffers. Data NULL: to be written later. */
+fm_status stage_create_vertices(fm_buffer **buffer, fm_device *device, const void *vertices,
+                                uint64_t bytes, fm_error *err);
+fm_status stage_create_indices(fm_buffer **buffer, fm_device *device, const uint32_t *indices,
+                               uint64_t count, fm_error *err);
+/* Two triangles for each quad of four corners (0 1 / 2 3). */
+fm_status stage_create_quad_indices(fm_buffer **buffer, fm_device *device, uint32_t quads,
+                                    fm_error *err);
 
 /* Workgroups of STAGE_GROUP_SIZE for so many invocations, within the device's limits, in two
  * dimensions. */

@@ -17,12 +17,11 @@ static fm_status create_buffers(fm_stage_cover *cover, fm_device *device, const 
                                 fm_error *err)
 {
     fm_status status =
-        stage_create_geometry(&cover->vertices, device, "vertices", solid->vertices,
+        stage_create_vertices(&cover->vertices, device, solid->vertices,
                               (uint64_t)solid->vertex_count * sizeof solid->vertices[0], err);
     if (status == FM_OK)
         status =
-            stage_create_geometry(&cover->indices, device, "cover indices", solid->indices,
-                                  (uint64_t)solid->index_count * sizeof solid->indices[0], err);
+            stage_create_indices(&cover->indices, device, solid->indices, solid->index_count, err);
     cover->index_count = solid->index_count;
     return status;
 }

@@ -6,7 +6,7 @@
 
 #include "device/device.h"
 #include "model/feeds.h"
-#include "plugin/culling.h"
+#include "plugin/culling_apply.h"
 
 static const char *sweep_value(const fm_plan_point *point, size_t i)
 {

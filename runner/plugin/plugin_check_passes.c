@@ -2,7 +2,7 @@
 #include <inttypes.h>
 #include <string.h>
 
-#include "culling.h"
+#include "culling_apply.h"
 #include "plugin_check.h"
 
 enum { NAME_MAX_BYTES = 64, MAX_STENCIL = 255 };

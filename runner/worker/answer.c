@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "plugin/culling.h"
+#include "plugin/culling_apply.h"
 
 static void set_number(json_t *object, const char *name, double value)
 {

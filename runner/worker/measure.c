@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "plugin/culling.h"
+#include "plugin/culling_apply.h"
 
 /* Of how many checked pixels the truth stays in memory. */
 enum { FORGET_PIXELS = 4096 };

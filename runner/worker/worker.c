@@ -12,7 +12,7 @@
 #include "generators/generate.h"
 #include "measure.h"
 #include "model/feeds.h"
-#include "plugin/culling.h"
+#include "plugin/culling_apply.h"
 #include "plugin/plugin.h"
 #include "technique_job.h"
 

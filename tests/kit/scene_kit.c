@@ -8,7 +8,7 @@
 #include "generators/generate.h"
 #include "model/feeds.h"
 #include "plan/plan_case.h"
-#include "plugin/culling.h"
+#include "plugin/culling_apply.h"
 
 void kit_open(scene_kit *kit, fm_device *device)
 {

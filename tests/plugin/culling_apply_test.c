@@ -8,7 +8,7 @@
 #include <cmocka.h>
 #include <string.h>
 
-#include "plugin/culling.h"
+#include "plugin/culling_apply.h"
 
 static fm_method_desc make_method(void)
 {

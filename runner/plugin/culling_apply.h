@@ -14,11 +14,10 @@
  * That the k nearest always pass (Lemma 2.1) depends on the body in nothing: a fragment outside its
  * range counts for the first or the last bucket, and a k-th bit in the last bucket, no range, or
  * fewer than k bits cull nothing. cull_bucket.glsl has the rounding. */
-#ifndef FM_CULLING_H
-#define FM_CULLING_H
+#ifndef FM_CULLING_APPLY_H
+#define FM_CULLING_APPLY_H
 
 #include "base/error.h"
-#include "base/text.h"
 #include "model/descriptor.h"
 #include "model/settings.h"
 
@@ -47,7 +46,7 @@ fm_status culling_apply(fm_method_desc *culled, const fm_method_desc *method,
 bool culling_is_applied(const fm_method_desc *method);
 /* Whether the pass, one of culling's own, builds the map. */
 bool culling_is_map_pass(const fm_pass *pass);
-/* What shaders of a pass need to know. */
-void culling_define(fm_text *text, const fm_pass *pass, const fm_settings *settings);
+/* Whether the pass's shader reads the boundary and tests against it. */
+bool culling_tests_in_shader(const fm_pass *pass);
 
 #endif

@@ -1,10 +1,8 @@
-#include "culling.h"
+#include "culling_apply.h"
 
 #include <stdio.h>
 #include <string.h>
 
-#include "device/device.h"
-#include "instance/shader.h"
 #include "model/formats.h"
 #include "model/formula.h"
 
@@ -211,20 +209,10 @@ fm_status culling_apply(fm_method_desc *culled, const fm_method_desc *method,
     return FM_OK;
 }
 
-/* ---- shaders ---- */
-
-static bool tests_in_shader(const fm_pass *pass)
+bool culling_tests_in_shader(const fm_pass *pass)
 {
     for (size_t i = 0; pass->kind == FM_PASS_SCENE && i < access_count(pass->reads); i++)
         if (strcmp(pass->reads[i], BOUNDARY) == 0)
             return true;
     return false;
-}
-
-void culling_define(fm_text *text, const fm_pass *pass, const fm_settings *settings)
-{
-    shader_define(text, "FM_OWN_CULL", settings->own_cull == FM_OWN_CULL_ON);
-    shader_define(text, "FM_CULL_IN_SHADER", tests_in_shader(pass));
-    if (culling_is_map_pass(pass))
-        shader_define(text, "FM_CULL_WORDS", settings->cull_words);
 }

@@ -1,0 +1,70 @@
+/* The resources that a pass uses, in the order of their bindings. */
+#include "instance_internal.h"
+
+static void add_use(built_pass *built, fm_slot *slot, uint32_t access, bool is_coherent,
+                    resource_ref ref)
+{
+    for (size_t i = 0; i < built->use_count; i++) {
+        if (built->uses[i].slot == slot) {
+            built->uses[i].access |= access;
+            return;
+        }
+    }
+    if (built->use_count == INSTANCE_USES_MAX) {
+        built->is_overfull = true;
+        return;
+    }
+    built->refs[built->use_count] = ref;
+    built->uses[built->use_count++] =
+        (fm_use){ .slot = slot, .access = access, .is_coherent = is_coherent };
+}
+
+static void add_resource(built_pass *built, fm_instance *instance, const char *name,
+                         uint32_t access, bool is_coherent)
+{
+    const resource_ref ref = resource_find(instance->method, name);
+    add_use(built, &instance->resources[ref.index][ref.is_previous ? 1 : 0], access, is_coherent,
+            ref);
+}
+
+void pass_use_stage(built_pass *built, fm_instance *instance, int slot, uint32_t access)
+{
+    add_use(built, &instance->desc.stage->slots[slot], access, false,
+            (resource_ref){ .index = -1 });
+}
+
+static void add_emit(built_pass *built, fm_instance *instance)
+{
+    if (instance->desc.is_capture) {
+        pass_use_stage(built, instance, STAGE_CAPTURE, FM_ACCESS_WRITE);
+        pass_use_stage(built, instance, STAGE_CAPTURE_COUNTS, FM_ACCESS_READ | FM_ACCESS_WRITE);
+        return;
+    }
+    pass_use_stage(built, instance, STAGE_OUTPUT, FM_ACCESS_READ | FM_ACCESS_WRITE);
+    if (instance->emits_back)
+        pass_use_stage(built, instance, STAGE_OUTPUT_BACK, FM_ACCESS_READ | FM_ACCESS_WRITE);
+}
+
+void pass_collect_uses(built_pass *built, fm_instance *instance, const fm_pass *pass)
+{
+    const bool is_shared = pass_is_scene(pass); /* many invocations a pixel */
+    if (pass_is_scene(pass) || pass_reads_triangles(instance, pass)) {
+        built->use_count =
+            stage_uses(built->uses, instance->desc.stage, pass_geometry(instance, pass));
+        built->stage_use_count = built->use_count;
+        for (size_t i = 0; i < built->use_count; i++)
+            built->refs[i].index = -1;
+    }
+    for (int i = 0; i < FM_MAX_ACCESSES && pass->reads[i] != NULL; i++)
+        add_resource(built, instance, pass->reads[i], FM_ACCESS_READ, is_shared);
+    for (int i = 0; i < FM_MAX_ACCESSES && pass->writes[i] != NULL; i++)
+        add_resource(built, instance, pass->writes[i], FM_ACCESS_READ | FM_ACCESS_WRITE, is_shared);
+    if (pass->exclusive && instance->is_spin_locked)
+        add_use(built, &instance->locks, FM_ACCESS_READ | FM_ACCESS_WRITE, true,
+                (resource_ref){ .index = -1 });
+    pass_use_stage(built, instance, STAGE_COUNTERS, FM_ACCESS_READ | FM_ACCESS_WRITE);
+    if (pass->emits)
+        add_emit(built, instance);
+    for (size_t i = 0; i < built->use_count; i++)
+        built->uses[i].binding = SHADER_BINDING_FIRST + (uint32_t)i;
+}
