@@ -1,6 +1,7 @@
 #include "results.h"
 #include "base/csv.h"
 #include "scene/layers.h"
+#include "simulator/counters.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -9,20 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-static const char *const sample_name[] = {
-    [FM_SAMPLE_FRAME_MS] = "frame_ms",
-    [FM_SAMPLE_FRAME_WALL_MS] = "frame_wall_ms",
-    [FM_SAMPLE_CLEAR_MS] = "clear_ms",
-    [FM_SAMPLE_COUNT_MS] = "count_ms",
-    [FM_SAMPLE_REFERENCE_MS] = "reference_ms",
-    [FM_SAMPLE_STORE_MS] = "store_ms",
-    [FM_SAMPLE_RESOLVE_MS] = "resolve_ms",
-    [FM_SAMPLE_FLOOR_STORE_MS] = "floor_store_ms",
-    [FM_SAMPLE_FLOOR_FRAME_MS] = "floor_frame_ms",
-    [FM_SAMPLE_CANARY_NS] = "canary_ns",
-};
-_Static_assert(sizeof sample_name / sizeof sample_name[0] == FM_SAMPLE_METRIC_COUNT, "one each");
 
 static const char samples_header[] = "schema,run_id,case_id,launch,frame,metric,value,unit\n";
 
@@ -143,12 +130,12 @@ static void add_sample_row(fm_text *rows, const fm_results *results, const char 
     text_add(rows, "\n");
 }
 
-static const char *unit_of(const char *metric)
+/* Metrics and their families have a unit; so have the simulated GPU's counters. */
+static const char *unit_of(const char *name)
 {
-    const size_t length = strlen(metric);
-    if (length > 3 && strcmp(metric + length - 3, "_ms") == 0)
-        return "ms";
-    return strstr(metric, "bytes") != NULL ? "B" : "";
+    const fm_metric_info *info = metric_describe(name);
+    const tbr_counter_info *counter = counter_find(name);
+    return info != NULL ? info->unit : counter != NULL ? counter->unit : "";
 }
 
 /* Metrics of the case that summary.csv has no column for: rows without launch and frame. */
@@ -177,11 +164,8 @@ static void add_metric_rows(fm_text *rows, const fm_results *results, const char
 static fm_status keep_sample(fm_case_result *result, uint32_t launch, const json_t *sample,
                              fm_error *err)
 {
-    const char *name = text_of(sample, "metric");
-    int metric = 0;
-    while (metric < FM_SAMPLE_METRIC_COUNT && strcmp(name, sample_name[metric]) != 0)
-        metric++;
-    if (metric == FM_SAMPLE_METRIC_COUNT)
+    fm_metric metric;
+    if (!metric_find(&metric, text_of(sample, "metric")))
         return FM_OK;
     if (result->sample_count == result->sample_room) {
         const size_t room = result->sample_room > 0 ? 2 * result->sample_room : 64;
@@ -195,7 +179,7 @@ static fm_status keep_sample(fm_case_result *result, uint32_t launch, const json
         .value = json_number_value(json_object_get(sample, "value")),
         .launch = launch,
         .frame = (uint32_t)json_integer_value(json_object_get(sample, "frame")),
-        .metric = (fm_sample_metric)metric,
+        .metric = metric,
     };
     return FM_OK;
 }
@@ -347,8 +331,9 @@ static void add_off_clock_rows(fm_text *rows, bool *is_off_clock, const fm_resul
     summary_off_clock(is_off_clock, results, case_index);
     for (size_t i = 0; i < count; i++)
         if (is_off_clock[i])
-            text_add(rows, "1,%s,%s,%zu,%zu,off_clock,1,\n", results->run_id,
-                     results->plan->cases[case_index].id, i / frames, i % frames);
+            text_add(rows, "1,%s,%s,%zu,%zu,%s,1,\n", results->run_id,
+                     results->plan->cases[case_index].id, i / frames, i % frames,
+                     fm_metrics[FM_METRIC_OFF_CLOCK].name);
 }
 
 fm_status results_end(fm_results *results, fm_error *err)

@@ -9,28 +9,15 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "model/columns.h"
 #include "model/outcome.h"
 #include "plan/plan.h"
 
-/* Metrics of samples that statistics use; all others only pass into samples.csv. */
-typedef enum fm_sample_metric {
-    FM_SAMPLE_FRAME_MS,
-    FM_SAMPLE_FRAME_WALL_MS,
-    FM_SAMPLE_CLEAR_MS,
-    FM_SAMPLE_COUNT_MS,
-    FM_SAMPLE_REFERENCE_MS,
-    FM_SAMPLE_STORE_MS,
-    FM_SAMPLE_RESOLVE_MS,
-    FM_SAMPLE_FLOOR_STORE_MS,
-    FM_SAMPLE_FLOOR_FRAME_MS,
-    FM_SAMPLE_CANARY_NS,
-    FM_SAMPLE_METRIC_COUNT
-} fm_sample_metric;
-
+/* One value of a metric of a frame (FM_OF_FRAME). Those of families only pass into samples.csv. */
 typedef struct fm_kept_sample {
     double value;
     uint32_t launch, frame;
-    fm_sample_metric metric;
+    fm_metric metric;
 } fm_kept_sample;
 
 typedef struct fm_launch_state {
@@ -83,8 +70,6 @@ fm_status results_write_summary(fm_results *results, fm_error *err);
  * summary.csv are renewed without them. Cases that had no turn get a row with status skipped. */
 fm_status results_end(fm_results *results, fm_error *err);
 
-/* Whether summary.csv has a column of this name. */
-bool summary_has_column(const char *name);
 /* Sets is_off_clock[launch * frames + frame] of each sample of the case whose canary was slow. */
 void summary_off_clock(bool *is_off_clock, const fm_results *results, size_t case_index);
 /* The names of the columns, and one row; both with their end of line. */

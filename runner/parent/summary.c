@@ -1,10 +1,11 @@
-/* The columns of summary.csv, in their order: one line a column. */
+/* What stands in each column of summary.csv (model/columns.h) for one case. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/csv.h"
 #include "base/stats.h"
+#include "model/columns.h"
 #include "results.h"
 
 enum { SAMPLES_WANTED = 5 };           /* fewer at full clock: no statement */
@@ -23,12 +24,6 @@ typedef struct row_state {
     uint32_t *groups;
 } row_state;
 
-typedef struct summary_column {
-    const char *name;
-    void (*write)(fm_text *text, const row_state *row, const struct summary_column *column);
-    int argument;
-} summary_column;
-
 static bool is_used(const row_state *row, const fm_kept_sample *sample)
 {
     const uint32_t frames = row->results->plan->frames;
@@ -37,7 +32,7 @@ static bool is_used(const row_state *row, const fm_kept_sample *sample)
 }
 
 /* Gathers one metric's used samples of one launch, or of all with launch = UINT32_MAX. */
-static size_t gather(const row_state *row, fm_sample_metric metric, uint32_t launch)
+static size_t gather(const row_state *row, fm_metric metric, uint32_t launch)
 {
     size_t count = 0;
     for (size_t i = 0; i < row->result->sample_count; i++) {
@@ -51,36 +46,20 @@ static size_t gather(const row_state *row, fm_sample_metric metric, uint32_t lau
     return count;
 }
 
-static double median_of(const row_state *row, fm_sample_metric metric, uint32_t launch)
+static double median_of(const row_state *row, fm_metric metric, uint32_t launch)
 {
     return stats_median(row->values, gather(row, metric, launch));
 }
 
-static void write_schema(fm_text *text, const row_state *row, const summary_column *column)
+static const char *method_version(const row_state *row)
 {
-    (void)row, (void)column;
-    text_add(text, "1");
+    const bool is_open = row->plugin != NULL && row->plugin->plugin != NULL;
+    const char *version = is_open ? row->plugin->plugin->method->version : NULL;
+    return version != NULL ? version : "";
 }
 
-static void write_text(fm_text *text, const row_state *row, const summary_column *column)
+static void write_message(fm_text *text, const row_state *row)
 {
-    const char *const texts[] = {
-        row->measured->id,
-        case_status_name(row->result->status),
-        row->measured->method,
-        row->plugin != NULL && row->plugin->plugin != NULL ? row->plugin->plugin->method->version
-                                                           : "",
-        row->measured->device,
-        row->result->device_name,
-        row->measured->feed,
-        row->measured->scene,
-    };
-    csv_add(text, texts[column->argument] != NULL ? texts[column->argument] : "");
-}
-
-static void write_message(fm_text *text, const row_state *row, const summary_column *column)
-{
-    (void)column;
     fm_text message = { 0 };
     if (row->excluded > 0 && row->samples < SAMPLES_WANTED)
         text_add(&message, "unclear: only %zu samples at full clock%s", row->samples,
@@ -91,10 +70,10 @@ static void write_message(fm_text *text, const row_state *row, const summary_col
 }
 
 /* A key's value; empty where the method or the generator does not use it. */
-static void write_key(fm_text *text, const row_state *row, const summary_column *column)
+static void write_key(fm_text *text, const row_state *row, const char *name)
 {
     char value[FM_PATH_MAX_BYTES];
-    const fm_key *key = key_find(column->name);
+    const fm_key *key = key_find(name);
     const fm_settings *settings = &row->measured->settings;
     if (key == NULL || !key_is_read(key, settings->generator))
         return;
@@ -103,24 +82,23 @@ static void write_key(fm_text *text, const row_state *row, const summary_column 
         csv_add(text, value);
 }
 
-static void write_metric(fm_text *text, const row_state *row, const summary_column *column)
+static const json_t *metric_of(const row_state *row, fm_metric metric)
 {
-    const json_t *value = json_object_get(row->result->metrics, column->name);
+    return json_object_get(row->result->metrics, fm_metrics[metric].name);
+}
+
+/* n before truth was there is what the recipe says. */
+static void write_case_metric(fm_text *text, const row_state *row, fm_metric metric)
+{
+    const json_t *value = metric_of(row, metric);
     if (json_is_integer(value))
         text_add(text, "%lld", (long long)json_integer_value(value));
     else if (json_is_real(value))
         csv_add_real(text, json_real_value(value));
     else if (json_is_string(value))
         csv_add(text, json_string_value(value));
-}
-
-/* As the truth counted, else as the recipe says. */
-static void write_n(fm_text *text, const row_state *row, const summary_column *column)
-{
-    if (json_object_get(row->result->metrics, column->name) != NULL)
-        write_metric(text, row, column);
-    else
-        write_key(text, row, column);
+    else if (metric == FM_METRIC_N)
+        write_key(text, row, fm_metrics[metric].name);
 }
 
 /* Layers tell their recipe; frames, whose scene's name says it, only what an axis changed. */
@@ -143,9 +121,8 @@ static bool is_told(const fm_case *measured, size_t index, const fm_settings *de
 }
 
 /* The method's own options, then whatever else is not as usual and has no column. */
-static void write_options(fm_text *text, const row_state *row, const summary_column *column)
+static void write_options(fm_text *text, const row_state *row)
 {
-    (void)column;
     char value[FM_PATH_MAX_BYTES];
     fm_settings defaults;
     fm_text all = { 0 };
@@ -161,41 +138,58 @@ static void write_options(fm_text *text, const row_state *row, const summary_col
     text_free(&all);
 }
 
-static void write_launches(fm_text *text, const row_state *row, const summary_column *column)
+static void write_fact(fm_text *text, const row_state *row, fm_fact fact)
 {
-    (void)column;
-    text_add(text, "%u", row->result->done);
-}
-
-static void write_samples(fm_text *text, const row_state *row, const summary_column *column)
-{
-    (void)column;
-    text_add(text, "%zu", row->samples);
-}
-
-static void write_frame_ms(fm_text *text, const row_state *row, const summary_column *column)
-{
-    const double values[] = { row->frame_ms.median, row->frame_ms.low, row->frame_ms.high };
-    csv_add_real(text, values[column->argument]);
-}
-
-static void write_median(fm_text *text, const row_state *row, const summary_column *column)
-{
-    csv_add_real(text, median_of(row, (fm_sample_metric)column->argument, UINT32_MAX));
+    switch (fact) {
+    case FM_FACT_SCHEMA:
+        csv_add(text, FM_SUMMARY_SCHEMA);
+        break;
+    case FM_FACT_CASE_ID:
+        csv_add(text, row->measured->id);
+        break;
+    case FM_FACT_STATUS:
+        csv_add(text, case_status_name(row->result->status));
+        break;
+    case FM_FACT_MESSAGE:
+        write_message(text, row);
+        break;
+    case FM_FACT_METHOD:
+        csv_add(text, row->measured->method);
+        break;
+    case FM_FACT_METHOD_VERSION:
+        csv_add(text, method_version(row));
+        break;
+    case FM_FACT_DEVICE:
+        csv_add(text, row->measured->device);
+        break;
+    case FM_FACT_DEVICE_NAME:
+        csv_add(text, row->result->device_name);
+        break;
+    case FM_FACT_FEED:
+        csv_add(text, row->measured->feed);
+        break;
+    case FM_FACT_SCENE:
+        csv_add(text, row->measured->scene);
+        break;
+    case FM_FACT_OPTIONS:
+        write_options(text, row);
+        break;
+    case FM_FACT_COUNT:
+        break;
+    }
 }
 
 /* Store time, or the frame's where that is all that is timed, over the floor's, launch by launch:
  * both ran in one process, moments apart. */
-static void write_times_floor(fm_text *text, const row_state *row, const summary_column *column)
+static void write_times_floor(fm_text *text, const row_state *row)
 {
-    (void)column;
     const bool is_span = row->measured->settings.timers == FM_TIMERS_FRAME;
     size_t count = 0;
     double *ratios = calloc(row->results->plan->launches, sizeof *ratios);
     for (uint32_t i = 0; ratios != NULL && i < row->results->plan->launches; i++) {
-        const double ms = median_of(row, is_span ? FM_SAMPLE_FRAME_MS : FM_SAMPLE_STORE_MS, i);
+        const double ms = median_of(row, is_span ? FM_METRIC_FRAME_MS : FM_METRIC_STORE_MS, i);
         const double floor_ms =
-            median_of(row, is_span ? FM_SAMPLE_FLOOR_FRAME_MS : FM_SAMPLE_FLOOR_STORE_MS, i);
+            median_of(row, is_span ? FM_METRIC_FLOOR_FRAME_MS : FM_METRIC_FLOOR_STORE_MS, i);
         if (!isnan(ms) && floor_ms > 0.0)
             ratios[count++] = ms / floor_ms;
     }
@@ -206,9 +200,8 @@ static void write_times_floor(fm_text *text, const row_state *row, const summary
     free(ratios);
 }
 
-static void write_distinct_images(fm_text *text, const row_state *row, const summary_column *column)
+static void write_distinct_images(fm_text *text, const row_state *row)
 {
-    (void)column;
     const fm_launch_state *launches = row->result->launches;
     unsigned distinct = 0;
     for (uint32_t i = 0; i < row->results->plan->launches; i++) {
@@ -221,81 +214,68 @@ static void write_distinct_images(fm_text *text, const row_state *row, const sum
         text_add(text, "%u", distinct);
 }
 
-static void write_rate(fm_text *text, const row_state *row, const summary_column *column)
+static void write_rate(fm_text *text, const row_state *row)
 {
-    (void)column;
-    const json_t *fragments = json_object_get(row->result->metrics, "fragments_generated");
+    const json_t *fragments = metric_of(row, FM_METRIC_FRAGMENTS_GENERATED);
     if (json_is_number(fragments) && row->frame_ms.median > 0.0)
         csv_add_real(text, json_number_value(fragments) / (row->frame_ms.median / 1e3));
 }
 
-static const summary_column columns[] = {
-    { "schema", write_schema, 0 },
-    { "case_id", write_text, 0 },
-    { "status", write_text, 1 },
-    { "message", write_message, 0 },
-    { "method", write_text, 2 },
-    { "method_version", write_text, 3 },
-    { "device", write_text, 4 },
-    { "device_name", write_text, 5 },
-    { "feed", write_text, 6 },
-    { "scene", write_text, 7 },
-    { "width_px", write_key, 0 },
-    { "height_px", write_key, 0 },
-    { "n", write_n, 0 },
-    { "k", write_key, 0 },
-    { "r", write_key, 0 },
-    { "pixel_density", write_key, 0 },
-    { "fragment_probability", write_key, 0 },
-    { "tessellation", write_key, 0 },
-    { "order", write_key, 0 },
-    { "seed", write_key, 0 },
-    { "options", write_options, 0 },
-    { "launches", write_launches, 0 },
-    { "samples", write_samples, 0 },
-    { "frame_ms", write_frame_ms, 0 },
-    { "frame_ms_low", write_frame_ms, 1 },
-    { "frame_ms_high", write_frame_ms, 2 },
-    { "clear_ms", write_median, FM_SAMPLE_CLEAR_MS },
-    { "count_ms", write_median, FM_SAMPLE_COUNT_MS },
-    { "reference_ms", write_median, FM_SAMPLE_REFERENCE_MS },
-    { "store_ms", write_median, FM_SAMPLE_STORE_MS },
-    { "resolve_ms", write_median, FM_SAMPLE_RESOLVE_MS },
-    { "times_floor", write_times_floor, 0 },
-    { "bytes_allocated", write_metric, 0 },
-    { "bytes_predicted", write_metric, 0 },
-    { "bytes_used", write_metric, 0 },
-    { "fragments_generated", write_metric, 0 },
-    { "fragments_stored", write_metric, 0 },
-    { "fragments_lost", write_metric, 0 },
-    { "missing", write_metric, 0 },
-    { "extra", write_metric, 0 },
-    { "misordered", write_metric, 0 },
-    { "depth_ulp_max", write_metric, 0 },
-    { "rmse", write_metric, 0 },
-    { "psnr_db", write_metric, 0 },
-    { "max_abs", write_metric, 0 },
-    { "ssim", write_metric, 0 },
-    { "flip", write_metric, 0 },
-    { "truncation_rmse", write_metric, 0 },
-    { "distinct_images", write_distinct_images, 0 },
-    { "frame_wall_ms", write_median, FM_SAMPLE_FRAME_WALL_MS },
-    { "fragments_per_s", write_rate, 0 },
-};
-enum { COLUMN_COUNT = sizeof columns / sizeof columns[0] };
-
-bool summary_has_column(const char *name)
+/* What follows from all launches of a case. */
+static void write_summary_metric(fm_text *text, const row_state *row, fm_metric metric)
 {
-    for (int i = 0; i < COLUMN_COUNT; i++)
-        if (strcmp(columns[i].name, name) == 0)
-            return true;
-    return false;
+    if (metric == FM_METRIC_LAUNCHES)
+        text_add(text, "%u", row->result->done);
+    else if (metric == FM_METRIC_SAMPLES)
+        text_add(text, "%zu", row->samples);
+    else if (metric == FM_METRIC_FRAME_MS_LOW)
+        csv_add_real(text, row->frame_ms.low);
+    else if (metric == FM_METRIC_FRAME_MS_HIGH)
+        csv_add_real(text, row->frame_ms.high);
+    else if (metric == FM_METRIC_TIMES_FLOOR)
+        write_times_floor(text, row);
+    else if (metric == FM_METRIC_DISTINCT_IMAGES)
+        write_distinct_images(text, row);
+    else if (metric == FM_METRIC_FRAGMENTS_PER_S)
+        write_rate(text, row);
+}
+
+static void write_metric(fm_text *text, const row_state *row, fm_metric metric)
+{
+    switch (fm_metrics[metric].of) {
+    case FM_OF_FRAME:
+        csv_add_real(text, median_of(row, metric, UINT32_MAX));
+        break;
+    case FM_OF_CASE:
+        write_case_metric(text, row, metric);
+        break;
+    case FM_OF_SUMMARY:
+        write_summary_metric(text, row, metric);
+        break;
+    case FM_OF_REPORT:
+        break;
+    }
+}
+
+static void write_column(fm_text *text, const row_state *row, const fm_column *column)
+{
+    switch (column->kind) {
+    case FM_COLUMN_FACT:
+        write_fact(text, row, column->fact);
+        break;
+    case FM_COLUMN_KEY:
+        write_key(text, row, column->key);
+        break;
+    case FM_COLUMN_METRIC:
+        write_metric(text, row, column->metric);
+        break;
+    }
 }
 
 void summary_header(fm_text *text)
 {
-    for (int i = 0; i < COLUMN_COUNT; i++)
-        text_add(text, "%s%s", columns[i].name, i + 1 < COLUMN_COUNT ? "," : "\n");
+    for (int i = 0; i < FM_COLUMN_COUNT; i++)
+        text_add(text, "%s%s", column_name(&fm_columns[i]), i + 1 < FM_COLUMN_COUNT ? "," : "\n");
 }
 
 /* The fastest canary of the run on this device; INFINITY when there is none. */
@@ -307,7 +287,7 @@ static double fastest_canary(const fm_results *results, const char *device)
             continue;
         for (size_t j = 0; j < results->cases[i].sample_count; j++) {
             const fm_kept_sample *sample = &results->cases[i].samples[j];
-            if (sample->metric == FM_SAMPLE_CANARY_NS && sample->value > 0.0)
+            if (sample->metric == FM_METRIC_CANARY_NS && sample->value > 0.0)
                 fastest = fmin(fastest, sample->value);
         }
     }
@@ -324,7 +304,7 @@ void summary_off_clock(bool *is_off_clock, const fm_results *results, size_t cas
         clock_slack * fastest_canary(results, results->plan->cases[case_index].device);
     for (size_t i = 0; i < result->sample_count; i++) {
         const fm_kept_sample *sample = &result->samples[i];
-        if (sample->metric == FM_SAMPLE_CANARY_NS && sample->value > limit &&
+        if (sample->metric == FM_METRIC_CANARY_NS && sample->value > limit &&
             sample->frame < frames)
             is_off_clock[(size_t)sample->launch * frames + sample->frame] = true;
     }
@@ -334,8 +314,8 @@ static void count_frames(row_state *row)
 {
     size_t all = 0;
     for (size_t i = 0; i < row->result->sample_count; i++)
-        all += row->result->samples[i].metric == FM_SAMPLE_FRAME_MS;
-    row->samples = gather(row, FM_SAMPLE_FRAME_MS, UINT32_MAX);
+        all += row->result->samples[i].metric == FM_METRIC_FRAME_MS;
+    row->samples = gather(row, FM_METRIC_FRAME_MS, UINT32_MAX);
     row->excluded = all - row->samples;
 }
 
@@ -362,9 +342,9 @@ void summary_row(fm_text *text, const fm_results *results, size_t case_index)
     count_frames(&row);
     const fm_samples samples = { row.values, row.groups, row.samples, plan->launches };
     row.frame_ms = stats_bootstrap(&samples, plan->seed);
-    for (int i = 0; i < COLUMN_COUNT; i++) {
-        columns[i].write(text, &row, &columns[i]);
-        text_add(text, i + 1 < COLUMN_COUNT ? "," : "\n");
+    for (int i = 0; i < FM_COLUMN_COUNT; i++) {
+        write_column(text, &row, &fm_columns[i]);
+        text_add(text, i + 1 < FM_COLUMN_COUNT ? "," : "\n");
     }
 out:
     free(is_off_clock);

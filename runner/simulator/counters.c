@@ -21,3 +21,11 @@ void counters_add(tbr_counters *sum, const tbr_counters *more)
     TBR_COUNTERS(TBR_ADD)
 #undef TBR_ADD
 }
+
+const tbr_counter_info *counter_find(const char *name)
+{
+    for (size_t i = 0; i < TBR_COUNTER_COUNT; i++)
+        if (strcmp(tbr_counter_infos[i].name, name) == 0)
+            return &tbr_counter_infos[i];
+    return NULL;
+}

@@ -61,6 +61,8 @@ typedef struct tbr_counter_info {
 } tbr_counter_info;
 extern const tbr_counter_info tbr_counter_infos[TBR_COUNTER_COUNT];
 
+/* NULL: no counter has this name. */
+const tbr_counter_info *counter_find(const char *name);
 void counters_add(tbr_counters *sum, const tbr_counters *more);
 uint64_t counters_get(const tbr_counters *counters, size_t index);
 

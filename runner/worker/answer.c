@@ -7,51 +7,68 @@
 
 #include "plugin/culling_apply.h"
 
-static void set_number(json_t *object, const char *name, double value)
+void answer_set_number(json_t *metrics, fm_metric metric, double value)
 {
+    const char *name = fm_metrics[metric].name;
     if (isfinite(value))
-        json_object_set_new(object, name, json_real(value));
+        json_object_set_new(metrics, name, json_real(value));
     else
-        json_object_set_new(object, name,
+        json_object_set_new(metrics, name,
                             json_string(isnan(value) ? "nan"
                                         : value > 0  ? "inf"
                                                      : "-inf"));
 }
 
-static void set_count(json_t *object, const char *name, uint64_t value)
+void answer_set_count(json_t *metrics, fm_metric metric, uint64_t value)
 {
-    json_object_set_new(object, name, json_integer((json_int_t)value));
+    json_object_set_new(metrics, fm_metrics[metric].name, json_integer((json_int_t)value));
 }
 
-static void add_sample(json_t *samples, uint32_t frame, const char *metric, double value,
-                       const char *unit)
+static void add_named_sample(json_t *samples, uint32_t frame, const char *name, double value)
 {
-    json_array_append_new(samples, json_pack("{s:i, s:s, s:f, s:s}", "frame", (int)frame, "metric",
-                                             metric, "value", value, "unit", unit));
+    json_array_append_new(samples,
+                          json_pack("{s:i, s:s, s:f, s:s}", "frame", (int)frame, "metric", name,
+                                    "value", value, "unit", metric_describe(name)->unit));
 }
 
-static bool is_standard_pass(const char *name)
+void answer_add_sample(json_t *samples, uint32_t frame, fm_metric metric, double value)
 {
-    static const char *const standard[] = { "clear", "count", "reference", "store", "resolve" };
-    for (size_t i = 0; i < sizeof standard / sizeof standard[0]; i++)
-        if (strcmp(standard[i], name) == 0)
-            return true;
-    return false;
+    add_named_sample(samples, frame, fm_metrics[metric].name, value);
+}
+
+/* Passes of the standard names have metrics of their own, the others are of a family. */
+static void add_pass(json_t *samples, uint32_t frame, const char *name, double ms)
+{
+    static const struct {
+        const char *name;
+        fm_metric metric;
+    } standard[] = { { "clear", FM_METRIC_CLEAR_MS },
+                     { "count", FM_METRIC_COUNT_MS },
+                     { "reference", FM_METRIC_REFERENCE_MS },
+                     { "store", FM_METRIC_STORE_MS },
+                     { "resolve", FM_METRIC_RESOLVE_MS } };
+    char own[96];
+    for (size_t i = 0; i < sizeof standard / sizeof standard[0]; i++) {
+        if (strcmp(standard[i].name, name) == 0) {
+            answer_add_sample(samples, frame, standard[i].metric, ms);
+            return;
+        }
+    }
+    snprintf(own, sizeof own, "pass.%s_ms", name);
+    add_named_sample(samples, frame, own, ms);
 }
 
 static void add_passes(json_t *samples, uint32_t frame, const fm_sample *sample,
                        const fm_method_desc *method)
 {
     uint64_t map = 0;
-    char metric[96];
     for (size_t i = 0; i < FM_MAX_PASSES && method->passes[i].name != NULL; i++) {
         const char *name = method->passes[i].name;
-        snprintf(metric, sizeof metric, "%s%s_ms", is_standard_pass(name) ? "" : "pass.", name);
-        add_sample(samples, frame, metric, (double)sample->pass_ns[i] * 1e-6, "ms");
+        add_pass(samples, frame, name, (double)sample->pass_ns[i] * 1e-6);
         map += culling_is_map_pass(&method->passes[i]) ? sample->pass_ns[i] : 0;
     }
     if (culling_is_applied(method))
-        add_sample(samples, frame, "culling_ms", (double)map * 1e-6, "ms");
+        answer_add_sample(samples, frame, FM_METRIC_CULLING_MS, (double)map * 1e-6);
 }
 
 static void add_frame(json_t *samples, uint32_t frame, const fm_sample *sample,
@@ -60,12 +77,14 @@ static void add_frame(json_t *samples, uint32_t frame, const fm_sample *sample,
     const bool has_passes = of->settings->timers == FM_TIMERS_PASSES;
     if (has_passes)
         add_passes(samples, frame, sample, of->method);
-    add_sample(samples, frame, "frame_ms", (double)sample->frame_ns * 1e-6, "ms");
-    add_sample(samples, frame, "frame_wall_ms", (double)sample->wall_ns * 1e-6, "ms");
+    answer_add_sample(samples, frame, FM_METRIC_FRAME_MS, (double)sample->frame_ns * 1e-6);
+    answer_add_sample(samples, frame, FM_METRIC_FRAME_WALL_MS, (double)sample->wall_ns * 1e-6);
     if (has_passes)
-        add_sample(samples, frame, "floor_store_ms", (double)sample->floor_store_ns * 1e-6, "ms");
-    add_sample(samples, frame, "floor_frame_ms", (double)sample->floor_frame_ns * 1e-6, "ms");
-    add_sample(samples, frame, "canary_ns", (double)sample->canary_ns, "ns");
+        answer_add_sample(samples, frame, FM_METRIC_FLOOR_STORE_MS,
+                          (double)sample->floor_store_ns * 1e-6);
+    answer_add_sample(samples, frame, FM_METRIC_FLOOR_FRAME_MS,
+                      (double)sample->floor_frame_ns * 1e-6);
+    answer_add_sample(samples, frame, FM_METRIC_CANARY_NS, (double)sample->canary_ns);
 }
 
 /* What the k nearest ask for is F_k; what is beyond them may be left out: of it how much was, by
@@ -78,36 +97,36 @@ static void add_culled(json_t *metrics, const fm_answer_desc *of)
     const double taken = (double)m->arrived - (double)m->culled;
     const double kept = (double)truth_kept(of->truth, measure_places(of->method, of->settings->k));
     if (culling_is_applied(of->method))
-        set_count(metrics, "cull_words", of->settings->cull_words);
+        answer_set_count(metrics, FM_METRIC_CULL_WORDS, of->settings->cull_words);
     if ((of->stage->feed & FM_FEEDS_FRAGMENTS) == 0) /* no fragments arrive, so none are counted */
         return;
-    set_count(metrics, "fragments_arrived", m->arrived);
-    set_count(metrics, "fragments_culled", m->culled);
-    set_count(metrics, "locks_taken", m->locked);
+    answer_set_count(metrics, FM_METRIC_FRAGMENTS_ARRIVED, m->arrived);
+    answer_set_count(metrics, FM_METRIC_FRAGMENTS_CULLED, m->culled);
+    answer_set_count(metrics, FM_METRIC_LOCKS_TAKEN, m->locked);
     if (of->method->keeps != FM_KEEPS_K_NEAREST)
         return;
     if (all > kept)
-        set_number(metrics, "discarded_share", (all - taken) / (all - kept));
+        answer_set_number(metrics, FM_METRIC_DISCARDED_SHARE, (all - taken) / (all - kept));
     if (kept > 0)
-        set_number(metrics, "taken_per_kept", taken / kept);
+        answer_set_number(metrics, FM_METRIC_TAKEN_PER_KEPT, taken / kept);
 }
 
 static void add_checked(json_t *metrics, const fm_measurement *m, const fm_truth *truth)
 {
-    set_count(metrics, "fragments_stored", m->check.captured);
-    set_count(metrics, "missing", m->check.missing);
-    set_count(metrics, "extra", m->check.extra);
-    set_count(metrics, "misordered", m->check.misordered);
-    set_count(metrics, "depth_ulp_max", m->check.depth_ulp_max);
-    set_count(metrics, "wrong_pixels", m->check.wrong_pixels);
-    set_count(metrics, "nonempty_pixels", truth->nonempty_pixels);
-    set_number(metrics, "self_max_abs", m->self_max_abs);
-    set_number(metrics, "rmse", m->error.rmse);
-    set_number(metrics, "psnr_db", m->error.psnr_db);
-    set_number(metrics, "max_abs", m->error.max_abs);
-    set_number(metrics, "ssim", m->error.ssim);
-    set_number(metrics, "truncation_rmse", m->truncation_rmse);
-    set_number(metrics, "total_rmse", m->total_rmse);
+    answer_set_count(metrics, FM_METRIC_FRAGMENTS_STORED, m->check.captured);
+    answer_set_count(metrics, FM_METRIC_MISSING, m->check.missing);
+    answer_set_count(metrics, FM_METRIC_EXTRA, m->check.extra);
+    answer_set_count(metrics, FM_METRIC_MISORDERED, m->check.misordered);
+    answer_set_count(metrics, FM_METRIC_DEPTH_ULP_MAX, m->check.depth_ulp_max);
+    answer_set_count(metrics, FM_METRIC_WRONG_PIXELS, m->check.wrong_pixels);
+    answer_set_count(metrics, FM_METRIC_NONEMPTY_PIXELS, truth->nonempty_pixels);
+    answer_set_number(metrics, FM_METRIC_SELF_MAX_ABS, m->self_max_abs);
+    answer_set_number(metrics, FM_METRIC_RMSE, m->error.rmse);
+    answer_set_number(metrics, FM_METRIC_PSNR_DB, m->error.psnr_db);
+    answer_set_number(metrics, FM_METRIC_MAX_ABS, m->error.max_abs);
+    answer_set_number(metrics, FM_METRIC_SSIM, m->error.ssim);
+    answer_set_number(metrics, FM_METRIC_TRUNCATION_RMSE, m->truncation_rmse);
+    answer_set_number(metrics, FM_METRIC_TOTAL_RMSE, m->total_rmse);
 }
 
 static void add_metrics(json_t *result, const fm_answer_desc *of)
@@ -115,18 +134,18 @@ static void add_metrics(json_t *result, const fm_answer_desc *of)
     const fm_measurement *m = of->measurement;
     json_t *metrics = json_object(), *samples = json_array();
     char hash[17];
-    set_count(metrics, "n", of->stage->n);
-    set_count(metrics, "bytes_allocated", m->bytes_allocated);
-    set_count(metrics, "bytes_predicted", m->bytes_predicted);
-    set_count(metrics, "bytes_used", m->bytes_used);
-    set_count(metrics, "fragments_generated", of->truth->fragment_count);
-    set_count(metrics, "fragments_lost", m->lost);
-    set_count(metrics, "frames_redone", m->frames_redone);
-    set_number(metrics, "redone_ms", (double)m->redone_ns * 1e-6);
-    set_count(metrics, "frames_lossy", m->frames_lossy);
-    set_count(metrics, "scene_passes", m->scene_passes);
+    answer_set_count(metrics, FM_METRIC_N, of->stage->n);
+    answer_set_count(metrics, FM_METRIC_BYTES_ALLOCATED, m->bytes_allocated);
+    answer_set_count(metrics, FM_METRIC_BYTES_PREDICTED, m->bytes_predicted);
+    answer_set_count(metrics, FM_METRIC_BYTES_USED, m->bytes_used);
+    answer_set_count(metrics, FM_METRIC_FRAGMENTS_GENERATED, of->truth->fragment_count);
+    answer_set_count(metrics, FM_METRIC_FRAGMENTS_LOST, m->lost);
+    answer_set_count(metrics, FM_METRIC_FRAMES_REDONE, m->frames_redone);
+    answer_set_number(metrics, FM_METRIC_REDONE_MS, (double)m->redone_ns * 1e-6);
+    answer_set_count(metrics, FM_METRIC_FRAMES_LOSSY, m->frames_lossy);
+    answer_set_count(metrics, FM_METRIC_SCENE_PASSES, m->scene_passes);
     if (m->k_chosen > 0)
-        set_count(metrics, "k_chosen", m->k_chosen);
+        answer_set_count(metrics, FM_METRIC_K_CHOSEN, m->k_chosen);
     if (m->is_checked) {
         add_checked(metrics, m, of->truth);
         add_culled(metrics, of);
@@ -166,8 +185,8 @@ void answer_add_measured(json_t *result, const fm_answer_desc *of)
 void answer_add_truth(json_t *result, const fm_truth *truth)
 {
     json_t *metrics = json_object();
-    set_count(metrics, "n", truth->n);
-    set_count(metrics, "fragments_generated", truth->fragment_count);
-    set_count(metrics, "nonempty_pixels", truth->nonempty_pixels);
+    answer_set_count(metrics, FM_METRIC_N, truth->n);
+    answer_set_count(metrics, FM_METRIC_FRAGMENTS_GENERATED, truth->fragment_count);
+    answer_set_count(metrics, FM_METRIC_NONEMPTY_PIXELS, truth->nonempty_pixels);
     json_object_set_new(result, "metrics", metrics);
 }

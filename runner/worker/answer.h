@@ -6,6 +6,7 @@
 #include <jansson.h>
 
 #include "measure.h"
+#include "model/metrics.h"
 
 /* All borrowed. */
 typedef struct fm_answer_desc {
@@ -15,6 +16,13 @@ typedef struct fm_answer_desc {
     const fm_truth *truth;
     const fm_stage *stage;
 } fm_answer_desc;
+
+/* One number of a case: metrics is the answer's object of that name. What is not finite travels as
+ * a text, for JSON has no such numbers. */
+void answer_set_number(json_t *metrics, fm_metric metric, double value);
+void answer_set_count(json_t *metrics, fm_metric metric, uint64_t value);
+/* One number of a frame: samples is the answer's list of that name. */
+void answer_add_sample(json_t *samples, uint32_t frame, fm_metric metric, double value);
 
 void answer_add_measured(json_t *result, const fm_answer_desc *of);
 void answer_add_truth(json_t *result, const fm_truth *truth);

@@ -7,6 +7,7 @@
 #include <string.h>
 #include <xxhash.h>
 
+#include "answer.h"
 #include "base/clock.h"
 #include "base/image.h"
 #include "generators/generate.h"
@@ -146,11 +147,10 @@ static fm_status float_image(fm_image **image, const run_state *run, const uint3
 
 static void set_errors(json_t *metrics, const fm_image_error *error)
 {
-    json_object_set_new(metrics, "rmse", json_real(error->rmse));
-    json_object_set_new(metrics, "max_abs", json_real(error->max_abs));
-    json_object_set_new(metrics, "ssim", json_real(error->ssim));
-    json_object_set_new(metrics, "psnr_db",
-                        isinf(error->psnr_db) ? json_string("inf") : json_real(error->psnr_db));
+    answer_set_number(metrics, FM_METRIC_RMSE, error->rmse);
+    answer_set_number(metrics, FM_METRIC_MAX_ABS, error->max_abs);
+    answer_set_number(metrics, FM_METRIC_SSIM, error->ssim);
+    answer_set_number(metrics, FM_METRIC_PSNR_DB, error->psnr_db);
 }
 
 /* The last frame against the baseline's; written only where they differ. */
@@ -200,13 +200,6 @@ static energy_result frame_energy(const run_state *run, const tbr_counters *coun
     return energy_of(&inputs, p);
 }
 
-static void add_sample(run_state *run, uint32_t frame, const char *metric, double value,
-                       const char *unit)
-{
-    json_array_append_new(run->samples, json_pack("{s:i, s:s, s:f, s:s}", "frame", (int)frame,
-                                                  "metric", metric, "value", value, "unit", unit));
-}
-
 static void add_cycles(cycles_frame *sum, const cycles_frame *more)
 {
     for (size_t i = 0; i < CYCLES_VARIANT_COUNT; i++) {
@@ -229,11 +222,13 @@ static void take_frame(run_state *run, uint32_t index)
     const uint64_t wrong = check_frame(run, index);
     run->wrong_tiles += wrong;
     run->wrong_frames += wrong > 0;
-    add_sample(run, index, "frame.cycles", all, "");
-    add_sample(run, index, "frame.energy_nj", energy.total, "nJ");
-    add_sample(run, index, "frame.tiles_skipped", (double)counts->tiles_skipped, "");
-    add_sample(run, index, "frame.fragments_shaded", (double)counts->fragments_shaded, "");
-    add_sample(run, index, "frame.wrong_tiles", (double)wrong, "");
+    answer_add_sample(run->samples, index, FM_METRIC_FRAME_CYCLES, all);
+    answer_add_sample(run->samples, index, FM_METRIC_FRAME_ENERGY_NJ, energy.total);
+    answer_add_sample(run->samples, index, FM_METRIC_FRAME_TILES_SKIPPED,
+                      (double)counts->tiles_skipped);
+    answer_add_sample(run->samples, index, FM_METRIC_FRAME_FRAGMENTS_SHADED,
+                      (double)counts->fragments_shaded);
+    answer_add_sample(run->samples, index, FM_METRIC_FRAME_WRONG_TILES, (double)wrong);
     if (index == 0)
         return;
     counters_add(&run->sum, counts);
@@ -278,7 +273,7 @@ static double all_cycles(const run_state *run)
 static void set_cycles(run_state *run)
 {
     const cycles_frame *sum = &run->cycle_sum;
-    set_real(run, "", "cycles", "", all_cycles(run));
+    answer_set_number(run->metrics, FM_METRIC_CYCLES, all_cycles(run));
     set_real(run, "cycles.", "geometry", "", sum->geometry[CYCLES_NOMINAL]);
     set_real(run, "cycles.", "raster", "", sum->raster[CYCLES_NOMINAL]);
     set_real(run, "cycles.", "raster_b", "", sum->raster_b);
@@ -296,7 +291,7 @@ static void set_energy(run_state *run)
     const double spilled = bytes > 0 ? run->spilled_sum / bytes : 0;
     const energy_result nominal =
         frame_energy(run, &run->sum, all_cycles(run), spilled, &run->table.nominal);
-    set_real(run, "", "energy_nj", "", nominal.total);
+    answer_set_number(run->metrics, FM_METRIC_ENERGY_NJ, nominal.total);
     for (size_t i = 0; i < ENERGY_COMPONENT_COUNT; i++)
         set_real(run, "energy.", energy_names[i], "_nj", nominal.component[i]);
     for (unsigned i = 0; i < ENERGY_CORNERS; i++) {
@@ -311,15 +306,14 @@ static void set_metrics(run_state *run)
     for (size_t i = 0; i < TBR_COUNTER_COUNT; i++)
         json_object_set_new(run->metrics, tbr_counter_infos[i].name,
                             json_integer((json_int_t)counters_get(&run->sum, i)));
-    json_object_set_new(run->metrics, "fragments_generated",
-                        json_integer((json_int_t)run->sum.fragments_rasterised));
-    json_object_set_new(run->metrics, "wrong_tiles", json_integer((json_int_t)run->wrong_tiles));
-    json_object_set_new(run->metrics, "wrong_frames", json_integer((json_int_t)run->wrong_frames));
+    answer_set_count(run->metrics, FM_METRIC_FRAGMENTS_GENERATED, run->sum.fragments_rasterised);
+    answer_set_count(run->metrics, FM_METRIC_WRONG_TILES, run->wrong_tiles);
+    answer_set_count(run->metrics, FM_METRIC_WRONG_FRAMES, run->wrong_frames);
     set_cycles(run);
     set_energy(run);
     const double core_s = run->seconds * tbr_thread_count(run->gpu);
-    set_real(run, "", "simulated_fragments_per_core_s", "",
-             core_s > 0 ? (double)run->sum.fragments_rasterised / core_s : 0);
+    answer_set_number(run->metrics, FM_METRIC_SIMULATED_RATE,
+                      core_s > 0 ? (double)run->sum.fragments_rasterised / core_s : 0);
 }
 
 /* What of the simulator ran for this technique and sequence. */

@@ -1,0 +1,104 @@
+#include "columns.h"
+
+#include <string.h>
+
+#define FACT(id)                                                                                   \
+    {                                                                                              \
+        .kind = FM_COLUMN_FACT, .fact = FM_FACT_##id                                               \
+    }
+#define KEY(name)                                                                                  \
+    {                                                                                              \
+        .kind = FM_COLUMN_KEY, .key = name                                                         \
+    }
+#define METRIC(id)                                                                                 \
+    {                                                                                              \
+        .kind = FM_COLUMN_METRIC, .metric = FM_METRIC_##id                                         \
+    }
+
+/* clang-format off */
+const fm_column fm_columns[] = {
+    FACT(SCHEMA),
+    FACT(CASE_ID),
+    FACT(STATUS),
+    FACT(MESSAGE),
+    FACT(METHOD),
+    FACT(METHOD_VERSION),
+    FACT(DEVICE),
+    FACT(DEVICE_NAME),
+    FACT(FEED),
+    FACT(SCENE),
+    KEY("width_px"),
+    KEY("height_px"),
+    METRIC(N),
+    KEY("k"),
+    KEY("r"),
+    KEY("pixel_density"),
+    KEY("fragment_probability"),
+    KEY("tessellation"),
+    KEY("order"),
+    KEY("seed"),
+    FACT(OPTIONS),
+    METRIC(LAUNCHES),
+    METRIC(SAMPLES),
+    METRIC(FRAME_MS),
+    METRIC(FRAME_MS_LOW),
+    METRIC(FRAME_MS_HIGH),
+    METRIC(CLEAR_MS),
+    METRIC(COUNT_MS),
+    METRIC(REFERENCE_MS),
+    METRIC(STORE_MS),
+    METRIC(RESOLVE_MS),
+    METRIC(TIMES_FLOOR),
+    METRIC(BYTES_ALLOCATED),
+    METRIC(BYTES_PREDICTED),
+    METRIC(BYTES_USED),
+    METRIC(FRAGMENTS_GENERATED),
+    METRIC(FRAGMENTS_STORED),
+    METRIC(FRAGMENTS_LOST),
+    METRIC(MISSING),
+    METRIC(EXTRA),
+    METRIC(MISORDERED),
+    METRIC(DEPTH_ULP_MAX),
+    METRIC(RMSE),
+    METRIC(PSNR_DB),
+    METRIC(MAX_ABS),
+    METRIC(SSIM),
+    METRIC(FLIP),
+    METRIC(TRUNCATION_RMSE),
+    METRIC(DISTINCT_IMAGES),
+    METRIC(FRAME_WALL_MS),
+    METRIC(FRAGMENTS_PER_S),
+};
+/* clang-format on */
+_Static_assert(sizeof fm_columns / sizeof fm_columns[0] == FM_COLUMN_COUNT, "FM_COLUMN_COUNT");
+
+static const char *const fact_name[] = {
+    [FM_FACT_SCHEMA] = "schema",   [FM_FACT_CASE_ID] = "case_id",
+    [FM_FACT_STATUS] = "status",   [FM_FACT_MESSAGE] = "message",
+    [FM_FACT_METHOD] = "method",   [FM_FACT_METHOD_VERSION] = "method_version",
+    [FM_FACT_DEVICE] = "device",   [FM_FACT_DEVICE_NAME] = "device_name",
+    [FM_FACT_FEED] = "feed",       [FM_FACT_SCENE] = "scene",
+    [FM_FACT_OPTIONS] = "options",
+};
+_Static_assert(sizeof fact_name / sizeof fact_name[0] == FM_FACT_COUNT, "one name a fact");
+
+const char *column_name(const fm_column *column)
+{
+    switch (column->kind) {
+    case FM_COLUMN_FACT:
+        return fact_name[column->fact];
+    case FM_COLUMN_KEY:
+        return column->key;
+    case FM_COLUMN_METRIC:
+        break;
+    }
+    return fm_metrics[column->metric].name;
+}
+
+bool summary_has_column(const char *name)
+{
+    for (size_t i = 0; i < FM_COLUMN_COUNT; i++)
+        if (strcmp(column_name(&fm_columns[i]), name) == 0)
+            return true;
+    return false;
+}

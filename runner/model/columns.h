@@ -1,0 +1,51 @@
+/* The columns of summary.csv, in their order: one row a case. The parent writes by this table, and
+ * reports read by it. New columns come at the end, so that older readers keep working. */
+#ifndef FM_COLUMNS_H
+#define FM_COLUMNS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "metrics.h"
+
+/* Texts of a case that are neither a key nor a metric. */
+typedef enum fm_fact {
+    FM_FACT_SCHEMA,         /* FM_SUMMARY_SCHEMA */
+    FM_FACT_CASE_ID,        /* 16 hex digits */
+    FM_FACT_STATUS,         /* case_status_name */
+    FM_FACT_MESSAGE,        /* why it is not ok, or what is to be known of it */
+    FM_FACT_METHOD,         /* id */
+    FM_FACT_METHOD_VERSION, /* of its descriptor */
+    FM_FACT_DEVICE,         /* as asked for: "vulkan:0" */
+    FM_FACT_DEVICE_NAME,    /* as it calls itself */
+    FM_FACT_FEED,           /* feed_name */
+    FM_FACT_SCENE,          /* its name, or the path of its file */
+    FM_FACT_OPTIONS,        /* "key=value ...": a method's own, and keys off their default that have
+                               no column */
+    FM_FACT_COUNT
+} fm_fact;
+
+#define FM_SUMMARY_SCHEMA "1"
+
+typedef enum fm_column_kind {
+    FM_COLUMN_FACT,  /* text */
+    FM_COLUMN_KEY,   /* a key's value, empty where the scene or method does not use it */
+    FM_COLUMN_METRIC /* a number, empty where it does not apply */
+} fm_column_kind;
+
+typedef struct fm_column {
+    fm_column_kind kind;
+    fm_fact fact;
+    const char *key; /* name of a key */
+    fm_metric metric;
+} fm_column;
+
+enum { FM_COLUMN_COUNT = 51 };
+extern const fm_column fm_columns[FM_COLUMN_COUNT];
+
+/* As the first line of summary.csv spells it. */
+const char *column_name(const fm_column *column);
+/* Whether summary.csv has a column of this name. */
+bool summary_has_column(const char *name);
+
+#endif

@@ -1,0 +1,182 @@
+#include "metrics.h"
+
+#include <string.h>
+
+#define LESS     .better = FM_BETTER_LESS
+#define MORE     .better = FM_BETTER_MORE
+#define FRAME    .of = FM_OF_FRAME
+#define CASE     .of = FM_OF_CASE
+#define SUMMARY  .of = FM_OF_SUMMARY
+#define REPORT   .of = FM_OF_REPORT
+#define MEASURED .is_measured = true
+
+/* clang-format off */
+const fm_metric_info fm_metrics[FM_METRIC_COUNT] = {
+    [FM_METRIC_FRAME_MS] = { "frame_ms", "frame", "ms",
+        "GPU time of all passes of a frame, each between two timestamps (timers=frame: one interval)",
+        FRAME, LESS, MEASURED },
+    [FM_METRIC_FRAME_WALL_MS] = { "frame_wall_ms", "frame, host", "ms",
+        "the host's time for the same frame, with read-backs and waiting", FRAME, LESS, MEASURED },
+    [FM_METRIC_CLEAR_MS] = { "clear_ms", "clear", "ms", "pass clear", FRAME, LESS, MEASURED },
+    [FM_METRIC_COUNT_MS] = { "count_ms", "count", "ms", "pass count", FRAME, LESS, MEASURED },
+    [FM_METRIC_REFERENCE_MS] = { "reference_ms", "referencing step", "ms", "pass reference", FRAME,
+        LESS, MEASURED },
+    [FM_METRIC_STORE_MS] = { "store_ms", "store", "ms", "pass store", FRAME, LESS, MEASURED },
+    [FM_METRIC_RESOLVE_MS] = { "resolve_ms", "resolve", "ms", "pass resolve", FRAME, LESS, MEASURED },
+    [FM_METRIC_CULLING_MS] = { "culling_ms", "culling", "ms", "the passes that make the occupancy map",
+        FRAME, LESS, MEASURED },
+    [FM_METRIC_FLOOR_STORE_MS] = { "floor_store_ms", "floor, store", "ms",
+        "pass store of the floor, in the frame beside the method's", FRAME, LESS, MEASURED },
+    [FM_METRIC_FLOOR_FRAME_MS] = { "floor_frame_ms", "floor, frame", "ms",
+        "all passes of the floor, in the frame beside the method's", FRAME, LESS, MEASURED },
+    [FM_METRIC_CANARY_NS] = { "canary_ns", "canary", "ns",
+        "an empty timed interval: where it grows, the GPU's clock has fallen", FRAME, MEASURED },
+    [FM_METRIC_OFF_CLOCK] = { "off_clock", "off clock", "",
+        "1 for a frame that was not at full clock; its times count for nothing", FRAME, MEASURED },
+    [FM_METRIC_BYTES_ALLOCATED] = { "bytes_allocated", "memory", "B",
+        "what the method asked the device for", CASE, LESS },
+    [FM_METRIC_BYTES_PREDICTED] = { "bytes_predicted", "memory, formula", "B",
+        "what the descriptor's formula says", CASE, LESS },
+    [FM_METRIC_BYTES_USED] = { "bytes_used", "memory, used", "B",
+        "bytes of elements that hold something in a frame", CASE, LESS },
+    [FM_METRIC_N] = { "n", "n", "", "the most fragments of any pixel, as truth counted", CASE },
+    [FM_METRIC_FRAGMENTS_GENERATED] = { "fragments_generated", "fragments", "",
+        "all fragments of the scene", CASE },
+    [FM_METRIC_FRAGMENTS_ARRIVED] = { "fragments_arrived", "fragments arrived", "",
+        "fragments that pass store saw; an occupancy map culled the others", CASE },
+    [FM_METRIC_FRAGMENTS_CULLED] = { "fragments_culled", "fragments culled", "",
+        "of those, what the method's own test refused", CASE },
+    [FM_METRIC_FRAGMENTS_STORED] = { "fragments_stored", "fragments stored", "",
+        "fragments that the method handed over", CASE },
+    [FM_METRIC_FRAGMENTS_LOST] = { "fragments_lost", "lost", "",
+        "fragments that found no room, or ran out of tries for a lock", CASE, LESS },
+    [FM_METRIC_NONEMPTY_PIXELS] = { "nonempty_pixels", "covered pixels", "",
+        "pixels with at least one fragment", CASE },
+    [FM_METRIC_DISCARDED_SHARE] = { "discarded_share", "discarded", "",
+        "of the fragments beyond the k nearest, the share that was not stored", CASE, MORE },
+    [FM_METRIC_TAKEN_PER_KEPT] = { "taken_per_kept", "taken per kept", "",
+        "fragments that the method took for each that it keeps", CASE, LESS },
+    [FM_METRIC_LOCKS_TAKEN] = { "locks_taken", "locks taken", "", "times that a pixel's lock was taken",
+        CASE, LESS },
+    [FM_METRIC_CULL_WORDS] = { "cull_words", "words of the map", "",
+        "words of 32 buckets that a pixel of the occupancy map has", CASE },
+    [FM_METRIC_K_CHOSEN] = { "k_chosen", "k chosen", "", "the k that the method chose for the frame",
+        CASE },
+    [FM_METRIC_SCENE_PASSES] = { "scene_passes", "passes over the scene", "",
+        "how often a frame draws the scene", CASE, LESS },
+    [FM_METRIC_FRAMES_REDONE] = { "frames_redone", "frames redone", "",
+        "frames that were run again because a buffer had to grow", CASE, LESS },
+    [FM_METRIC_REDONE_MS] = { "redone_ms", "redone", "ms",
+        "the passes of all those frames: the cost of growing beside frame_ms", CASE, LESS, MEASURED },
+    [FM_METRIC_FRAMES_LOSSY] = { "frames_lossy", "lossy frames", "",
+        "frames that were run again because a software rasteriser's lock gave up", CASE, LESS, MEASURED },
+    [FM_METRIC_MISSING] = { "missing", "missing", "", "wanted fragments that were not captured", CASE,
+        LESS },
+    [FM_METRIC_EXTRA] = { "extra", "extra", "", "captured fragments that the pixel does not have", CASE,
+        LESS },
+    [FM_METRIC_MISORDERED] = { "misordered", "misordered", "", "neighbours in the wrong order", CASE,
+        LESS },
+    [FM_METRIC_DEPTH_ULP_MAX] = { "depth_ulp_max", "depth off", "ulp",
+        "the largest distance of a captured depth from its true one, in units in the last place", CASE,
+        LESS },
+    [FM_METRIC_WRONG_PIXELS] = { "wrong_pixels", "wrong pixels", "",
+        "pixels with a missing, extra or misordered fragment", CASE, LESS },
+    [FM_METRIC_SELF_MAX_ABS] = { "self_max_abs", "off its fragments", "",
+        "the largest distance, of any channel, of the timed image from the captured fragments composited "
+        "in double precision; pixels whose depths tie are left out", CASE, LESS },
+    [FM_METRIC_RMSE] = { "rmse", "RMSE", "",
+        "root mean squared error over all pixels of the viewport and four channels, linear and "
+        "premultiplied, against the picture of the fragments that the method is to keep", CASE, LESS },
+    [FM_METRIC_PSNR_DB] = { "psnr_db", "PSNR", "dB", "-20 log10 of rmse; inf for equal images", CASE,
+        MORE },
+    [FM_METRIC_MAX_ABS] = { "max_abs", "largest error", "",
+        "the largest error of any channel of any pixel", CASE, LESS },
+    [FM_METRIC_SSIM] = { "ssim", "SSIM", "",
+        "structural similarity, mean over windows; 1 for equal images", CASE, MORE },
+    [FM_METRIC_FLIP] = { "flip", "FLIP", "", "not computed yet: the column is empty", CASE, LESS },
+    [FM_METRIC_TRUNCATION_RMSE] = { "truncation_rmse", "truncation", "",
+        "rmse of the k nearest fragments against all of them: what keeping only k costs, whatever the "
+        "method", CASE, LESS },
+    [FM_METRIC_TOTAL_RMSE] = { "total_rmse", "total", "",
+        "rmse of the image against the picture of all fragments", CASE, LESS },
+    [FM_METRIC_DISTINCT_IMAGES] = { "distinct_images", "distinct images", "",
+        "how many different images the launches drew", SUMMARY, LESS, MEASURED },
+    [FM_METRIC_FRAME_MS_LOW] = { "frame_ms_low", "frame, low", "ms",
+        "lower end of the 95 % interval of frame_ms", SUMMARY, LESS, MEASURED },
+    [FM_METRIC_FRAME_MS_HIGH] = { "frame_ms_high", "frame, high", "ms",
+        "upper end of the 95 % interval of frame_ms", SUMMARY, LESS, MEASURED },
+    [FM_METRIC_TIMES_FLOOR] = { "times_floor", "x floor", "",
+        "store_ms over floor_store_ms, median of the launches (timers=frame: of frames)", SUMMARY, LESS,
+        MEASURED },
+    [FM_METRIC_FRAGMENTS_PER_S] = { "fragments_per_s", "fragments/s", "1/s",
+        "fragments_generated over frame_ms", SUMMARY, MORE, MEASURED },
+    [FM_METRIC_LAUNCHES] = { "launches", "launches", "", "processes that measured the case", SUMMARY },
+    [FM_METRIC_SAMPLES] = { "samples", "samples", "", "timed frames that count, of all launches",
+        SUMMARY, MEASURED },
+    [FM_METRIC_FPS] = { "fps", "frames/s", "1/s", "1000 over frame_ms", REPORT, MORE, MEASURED },
+    [FM_METRIC_MIB] = { "mib", "memory", "MiB", "bytes_allocated over 2^20", REPORT, LESS },
+    [FM_METRIC_FPS_PER_MIB] = { "fps_per_mib", "frames/s for each MiB", "1/(s MiB)", "fps over mib",
+        REPORT, MORE, MEASURED },
+    [FM_METRIC_CYCLES] = { "cycles", "cycles", "",
+        "modelled cycles of all frames but the first", CASE, LESS },
+    [FM_METRIC_ENERGY_NJ] = { "energy_nj", "energy", "nJ",
+        "modelled energy of all frames but the first", CASE, LESS },
+    [FM_METRIC_WRONG_TILES] = { "wrong_tiles", "wrong tiles", "",
+        "tiles, of all frames, whose colours are not the baseline's", CASE, LESS },
+    [FM_METRIC_WRONG_FRAMES] = { "wrong_frames", "wrong frames", "", "frames with such a tile", CASE,
+        LESS },
+    [FM_METRIC_SIMULATED_RATE] = { "simulated_fragments_per_core_s", "simulated", "1/s",
+        "fragments that a core of the host simulates in a second", CASE, MORE, MEASURED },
+    [FM_METRIC_FRAME_CYCLES] = { "frame.cycles", "cycles of a frame", "", "modelled cycles", FRAME,
+        LESS },
+    [FM_METRIC_FRAME_ENERGY_NJ] = { "frame.energy_nj", "energy of a frame", "nJ", "modelled energy",
+        FRAME, LESS },
+    [FM_METRIC_FRAME_TILES_SKIPPED] = { "frame.tiles_skipped", "tiles skipped in a frame", "",
+        "tiles that kept their colours", FRAME, MORE },
+    [FM_METRIC_FRAME_FRAGMENTS_SHADED] = { "frame.fragments_shaded", "fragments shaded in a frame", "",
+        "fragments that were shaded", FRAME, LESS },
+    [FM_METRIC_FRAME_WRONG_TILES] = { "frame.wrong_tiles", "wrong tiles in a frame", "",
+        "tiles whose colours are not the baseline's", FRAME, LESS },
+};
+
+const fm_metric_family fm_metric_families[FM_METRIC_FAMILY_COUNT] = {
+    { "pass.", "_ms", { "pass.NAME_ms", "pass NAME", "ms", "a pass of the method's own", FRAME, LESS,
+        MEASURED } },
+    { "energy_corner.", "_nj", { "energy_corner.CORNER_nj", "energy at CORNER", "nJ",
+        "modelled energy with every uncertain parameter at one end of its range", CASE, LESS } },
+    { "energy.", "_nj", { "energy.PART_nj", "energy, PART", "nJ", "modelled energy of a part of the GPU",
+        CASE, LESS } },
+    { "cycles.", "", { "cycles.PART", "cycles, PART", "",
+        "modelled cycles of a part, or with one parameter at an end of its range", CASE, LESS } },
+};
+/* clang-format on */
+
+bool metric_find(fm_metric *metric, const char *name)
+{
+    for (int i = 0; i < FM_METRIC_COUNT; i++) {
+        if (strcmp(fm_metrics[i].name, name) != 0)
+            continue;
+        *metric = (fm_metric)i;
+        return true;
+    }
+    return false;
+}
+
+static bool is_of_family(const fm_metric_family *family, const char *name)
+{
+    const size_t prefix = strlen(family->prefix), suffix = strlen(family->suffix);
+    const size_t length = strlen(name);
+    return length > prefix + suffix && strncmp(name, family->prefix, prefix) == 0 &&
+           strcmp(name + length - suffix, family->suffix) == 0;
+}
+
+const fm_metric_info *metric_describe(const char *name)
+{
+    fm_metric metric;
+    if (metric_find(&metric, name))
+        return &fm_metrics[metric];
+    for (size_t i = 0; i < FM_METRIC_FAMILY_COUNT; i++)
+        if (is_of_family(&fm_metric_families[i], name))
+            return &fm_metric_families[i].info;
+    return NULL;
+}

@@ -1,0 +1,127 @@
+/* The metrics: every number that fragmark measures, counts or derives, one row each. Who measures,
+ * writes, reads, charts or explains a metric takes its name, unit and meaning from here, so that a
+ * name is spelled once.
+ *
+ * Numbers without a row of their own belong to a family (`pass.NAME_ms`, `energy.PART_nj`) or are
+ * counters of the simulated GPU (simulator/counters.h). */
+#ifndef FM_METRICS_H
+#define FM_METRICS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef enum fm_metric {
+    /* times of a frame */
+    FM_METRIC_FRAME_MS,
+    FM_METRIC_FRAME_WALL_MS,
+    FM_METRIC_CLEAR_MS,
+    FM_METRIC_COUNT_MS,
+    FM_METRIC_REFERENCE_MS,
+    FM_METRIC_STORE_MS,
+    FM_METRIC_RESOLVE_MS,
+    FM_METRIC_CULLING_MS,
+    FM_METRIC_FLOOR_STORE_MS,
+    FM_METRIC_FLOOR_FRAME_MS,
+    FM_METRIC_CANARY_NS,
+    FM_METRIC_OFF_CLOCK,
+    /* memory of a case */
+    FM_METRIC_BYTES_ALLOCATED,
+    FM_METRIC_BYTES_PREDICTED,
+    FM_METRIC_BYTES_USED,
+    /* its fragments */
+    FM_METRIC_N,
+    FM_METRIC_FRAGMENTS_GENERATED,
+    FM_METRIC_FRAGMENTS_ARRIVED,
+    FM_METRIC_FRAGMENTS_CULLED,
+    FM_METRIC_FRAGMENTS_STORED,
+    FM_METRIC_FRAGMENTS_LOST,
+    FM_METRIC_NONEMPTY_PIXELS,
+    FM_METRIC_DISCARDED_SHARE,
+    FM_METRIC_TAKEN_PER_KEPT,
+    FM_METRIC_LOCKS_TAKEN,
+    FM_METRIC_CULL_WORDS,
+    FM_METRIC_K_CHOSEN,
+    FM_METRIC_SCENE_PASSES,
+    FM_METRIC_FRAMES_REDONE,
+    FM_METRIC_REDONE_MS,
+    FM_METRIC_FRAMES_LOSSY,
+    /* how wrong its fragments are */
+    FM_METRIC_MISSING,
+    FM_METRIC_EXTRA,
+    FM_METRIC_MISORDERED,
+    FM_METRIC_DEPTH_ULP_MAX,
+    FM_METRIC_WRONG_PIXELS,
+    /* how wrong its image is */
+    FM_METRIC_SELF_MAX_ABS,
+    FM_METRIC_RMSE,
+    FM_METRIC_PSNR_DB,
+    FM_METRIC_MAX_ABS,
+    FM_METRIC_SSIM,
+    FM_METRIC_FLIP,
+    FM_METRIC_TRUNCATION_RMSE,
+    FM_METRIC_TOTAL_RMSE,
+    FM_METRIC_DISTINCT_IMAGES,
+    /* what follows from times */
+    FM_METRIC_FRAME_MS_LOW,
+    FM_METRIC_FRAME_MS_HIGH,
+    FM_METRIC_TIMES_FLOOR,
+    FM_METRIC_FRAGMENTS_PER_S,
+    FM_METRIC_LAUNCHES,
+    FM_METRIC_SAMPLES,
+    FM_METRIC_FPS,
+    FM_METRIC_MIB,
+    FM_METRIC_FPS_PER_MIB,
+    /* the simulated GPU */
+    FM_METRIC_CYCLES,
+    FM_METRIC_ENERGY_NJ,
+    FM_METRIC_WRONG_TILES,
+    FM_METRIC_WRONG_FRAMES,
+    FM_METRIC_SIMULATED_RATE,
+    FM_METRIC_FRAME_CYCLES,
+    FM_METRIC_FRAME_ENERGY_NJ,
+    FM_METRIC_FRAME_TILES_SKIPPED,
+    FM_METRIC_FRAME_FRAGMENTS_SHADED,
+    FM_METRIC_FRAME_WRONG_TILES,
+    FM_METRIC_COUNT
+} fm_metric;
+
+typedef enum fm_better {
+    FM_BETTER_NEITHER, /* a fact: neither is better */
+    FM_BETTER_LESS,
+    FM_BETTER_MORE
+} fm_better;
+
+/* What one value of a metric belongs to, and so where it stands. */
+typedef enum fm_metric_of {
+    FM_OF_FRAME,   /* a timed frame of a launch: rows of samples.csv; summary.csv has the median */
+    FM_OF_CASE,    /* a case: summary.csv, or a row of samples.csv without launch and frame */
+    FM_OF_SUMMARY, /* a case, from all its launches: summary.csv alone */
+    FM_OF_REPORT   /* a case, worked out when it is charted: no file has it */
+} fm_metric_of;
+
+typedef struct fm_metric_info {
+    const char *name;       /* in files, figures, options of charts: "store_ms" */
+    const char *title;      /* in tables and on axes: "store" */
+    const char *unit;       /* "ms", "B", "dB"; "" is a plain number */
+    const char *definition; /* a sentence for a reader who knows the words of README */
+    fm_metric_of of;
+    fm_better better;
+    bool is_measured; /* it differs from run to run; else the same code gives the same value */
+} fm_metric_info;
+
+extern const fm_metric_info fm_metrics[FM_METRIC_COUNT];
+
+/* A family: all names that begin and end so, such as pass.sort_ms. */
+typedef struct fm_metric_family {
+    const char *prefix, *suffix;
+    fm_metric_info info; /* name: "pass.NAME_ms" */
+} fm_metric_family;
+enum { FM_METRIC_FAMILY_COUNT = 4 };
+extern const fm_metric_family fm_metric_families[FM_METRIC_FAMILY_COUNT];
+
+/* false: no metric has this name; *metric is then untouched. */
+bool metric_find(fm_metric *metric, const char *name);
+/* The row of a metric, or of the family that the name belongs to; NULL: neither. */
+const fm_metric_info *metric_describe(const char *name);
+
+#endif
