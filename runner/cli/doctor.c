@@ -5,6 +5,7 @@
 #include "cli.h"
 #include "device/device.h"
 #include "parent/machine.h"
+#include "scene/scene_file.h"
 
 enum { KEY_JSON = 512, DEVICES_MAX = 32 };
 

@@ -5,6 +5,7 @@
 #include "list_markdown.h"
 #include "model/feeds.h"
 #include "parent/manifest.h"
+#include "scene/scene_file.h"
 
 enum { KEY_JSON = 512, KEY_MARKDOWN, KEY_PLUGINS, DEVICES_MAX = 32 };
 

@@ -143,7 +143,7 @@ static int fail_run(const fm_arguments *arguments, bool is_damaged, const fm_err
     const int code = cli_fail(arguments->cli, err);
     if (err->status != FM_IO)
         return code;
-    return is_damaged ? CLI_DAMAGED : CLI_NOTHING; /* or a full disk */
+    return is_damaged ? CLI_DAMAGED : CLI_INCOMPLETE;
 }
 
 int cli_run_plan(const fm_arguments *arguments, const cli_run_desc *desc)

@@ -4,7 +4,7 @@
 #ifndef FM_INSTANCE_H
 #define FM_INSTANCE_H
 
-#include "plan/plan.h"
+#include "model/descriptor.h"
 #include "stage.h"
 
 typedef struct fm_instance fm_instance;

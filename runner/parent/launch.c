@@ -14,6 +14,7 @@
 
 #include "base/clock.h"
 #include "base/text.h"
+#include "worker/protocol.h"
 
 enum {
     LOG_TAIL_BYTES = 400,   /* of a dead worker's last words in a message */
@@ -69,25 +70,6 @@ void launcher_close(const fm_launcher *launcher)
         continue;
     sigaction(SIGCHLD, &launcher->child_action, NULL);
     sigprocmask(SIG_SETMASK, &launcher->previous, NULL);
-}
-
-json_t *launch_result(fm_case_status status, const char *message)
-{
-    /* Logs may hold bytes that are no UTF-8, which JSON refuses. */
-    char *copy = strdup(message);
-    if (copy != NULL)
-        text_make_utf8(copy);
-    json_t *result = json_pack("{s:s, s:s}", "status", case_status_name(status), "message",
-                               copy != NULL ? copy : "");
-    free(copy);
-    return result;
-}
-
-fm_case_status launch_status(const json_t *result)
-{
-    fm_case_status status = FM_CASE_CRASH;
-    case_status_parse(&status, json_string_value(json_object_get(result, "status")));
-    return status;
 }
 
 /* Between fork and exec: async-signal-safe calls only. */
@@ -249,37 +231,9 @@ static json_t *result_of_death(const ending *end, const fm_launch_desc *desc, of
     snprintf(message, sizeof message, "%s%s%s%s", how,
              words[0] != '\0' ? "; its last words: \"" : "", words, words[0] != '\0' ? "\"" : "");
     if (end->is_timed_out)
-        return launch_result(FM_CASE_TIMEOUT, message);
-    return launch_result(died_of_memory(end, desc, words) ? FM_CASE_OUT_OF_MEMORY : FM_CASE_CRASH,
-                         message);
-}
-
-/* What is wrong with a result's form; NULL: nothing. */
-static const char *result_fault(const json_t *result)
-{
-    fm_case_status status;
-    size_t index;
-    const json_t *sample;
-    const json_t *samples = json_object_get(result, "samples");
-    const json_t *metrics = json_object_get(result, "metrics");
-    if (!json_is_object(result))
-        return "not an object";
-    if (!case_status_parse(&status, json_string_value(json_object_get(result, "status"))) ||
-        status == FM_CASE_SKIPPED)
-        return "'status' is none of the known words";
-    if (metrics != NULL && !json_is_object(metrics))
-        return "'metrics' is not an object";
-    if (samples != NULL && !json_is_array(samples))
-        return "'samples' is not a list";
-    json_array_foreach(samples, index, sample)
-    {
-        if (!json_is_integer(json_object_get(sample, "frame")) ||
-            json_integer_value(json_object_get(sample, "frame")) < 0 ||
-            !json_is_string(json_object_get(sample, "metric")) ||
-            !json_is_number(json_object_get(sample, "value")))
-            return "a sample lacks frame, metric or value";
-    }
-    return NULL;
+        return answer_make(FM_CASE_TIMEOUT, message);
+    return answer_make(died_of_memory(end, desc, words) ? FM_CASE_OUT_OF_MEMORY : FM_CASE_CRASH,
+                       message);
 }
 
 static json_t *read_result(const ending *end, const fm_launch_desc *desc, off_t log_from)
@@ -292,16 +246,16 @@ static json_t *read_result(const ending *end, const fm_launch_desc *desc, off_t 
     if (end->is_timed_out || !WIFEXITED(end->wait_status) || access(desc->result, R_OK) != 0)
         return result_of_death(end, desc, log_from);
     if (text_read_file(&bytes, &count, desc->result, result_max_bytes, &below) != FM_OK)
-        return launch_result(FM_CASE_CRASH, below.message);
+        return answer_make(FM_CASE_CRASH, below.message);
     result = json_loadb(bytes, count, JSON_REJECT_DUPLICATES, &fault);
     free(bytes);
-    const char *why = result == NULL ? fault.text : result_fault(result);
+    const char *why = result == NULL ? fault.text : answer_fault(result);
     if (why == NULL)
         return result;
     json_decref(result);
     snprintf(message, sizeof message, "the worker's result cannot be used: %s (exit status %d)",
              why, WEXITSTATUS(end->wait_status));
-    return launch_result(FM_CASE_CRASH, message);
+    return answer_make(FM_CASE_CRASH, message);
 }
 
 fm_status launch_worker(fm_launch_outcome *outcome, const fm_launcher *launcher,

@@ -32,7 +32,7 @@ typedef struct fm_launch_desc {
 typedef struct fm_launch_outcome {
     bool is_interrupted; /* the worker was stopped because we were told to stop */
     int stop_signal;     /* the signal that told us so: SIGINT or SIGTERM */
-    json_t *result;      /* as worker.h says; made up when the worker left none. Owned by the
+    json_t *result;      /* as protocol.h says; made up when the worker left none. Owned by the
                             caller; NULL when interrupted */
     double seconds;
 } fm_launch_outcome;
@@ -48,10 +48,5 @@ int launcher_stop_signal(const fm_launcher *launcher);
  * FM_IO, FM_INVALID: nothing could be started. */
 fm_status launch_worker(fm_launch_outcome *outcome, const fm_launcher *launcher,
                         const fm_launch_desc *desc, fm_error *err);
-
-/* {"status": status, "message": message}; NULL without memory. */
-json_t *launch_result(fm_case_status status, const char *message);
-/* The status of a result; FM_CASE_CRASH where it names none. */
-fm_case_status launch_status(const json_t *result);
 
 #endif

@@ -2,6 +2,7 @@
 #include "base/csv.h"
 #include "scene/layers.h"
 #include "simulator/counters.h"
+#include "worker/protocol.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -111,22 +112,15 @@ void results_destroy(fm_results *results)
     free(results);
 }
 
-static const char *text_of(const json_t *object, const char *key)
-{
-    const char *text = json_string_value(json_object_get(object, key));
-    return text != NULL ? text : "";
-}
-
 static void add_sample_row(fm_text *rows, const fm_results *results, const char *case_id,
-                           uint32_t launch, const json_t *sample)
+                           uint32_t launch, const fm_answer_sample *sample)
 {
-    text_add(rows, "1,%s,%s,%u,%lld,", results->run_id, case_id, launch,
-             (long long)json_integer_value(json_object_get(sample, "frame")));
-    csv_add(rows, text_of(sample, "metric"));
+    text_add(rows, "1,%s,%s,%u,%u,", results->run_id, case_id, launch, sample->frame);
+    csv_add(rows, sample->metric);
     text_add(rows, ",");
-    csv_add_real(rows, json_number_value(json_object_get(sample, "value")));
+    csv_add_real(rows, sample->value);
     text_add(rows, ",");
-    csv_add(rows, text_of(sample, "unit"));
+    csv_add(rows, sample->unit);
     text_add(rows, "\n");
 }
 
@@ -161,11 +155,11 @@ static void add_metric_rows(fm_text *rows, const fm_results *results, const char
     }
 }
 
-static fm_status keep_sample(fm_case_result *result, uint32_t launch, const json_t *sample,
-                             fm_error *err)
+static fm_status keep_sample(fm_case_result *result, uint32_t launch,
+                             const fm_answer_sample *sample, fm_error *err)
 {
     fm_metric metric;
-    if (!metric_find(&metric, text_of(sample, "metric")))
+    if (!metric_find(&metric, sample->metric))
         return FM_OK;
     if (result->sample_count == result->sample_room) {
         const size_t room = result->sample_room > 0 ? 2 * result->sample_room : 64;
@@ -176,25 +170,24 @@ static fm_status keep_sample(fm_case_result *result, uint32_t launch, const json
         result->sample_room = room;
     }
     result->samples[result->sample_count++] = (fm_kept_sample){
-        .value = json_number_value(json_object_get(sample, "value")),
+        .value = sample->value,
         .launch = launch,
-        .frame = (uint32_t)json_integer_value(json_object_get(sample, "frame")),
+        .frame = sample->frame,
         .metric = metric,
     };
     return FM_OK;
 }
 
-static void keep_device(fm_case_result *kept, const json_t *result)
+static void keep_device(fm_case_result *kept, const json_t *answer)
 {
-    const json_t *software = json_object_get(result, "is_software");
-    if (text_of(result, "device_name")[0] == '\0')
+    fm_answer_device device;
+    if (!answer_device(&device, answer))
         return;
-    snprintf(kept->device_name, sizeof kept->device_name, "%s", text_of(result, "device_name"));
-    snprintf(kept->device_driver, sizeof kept->device_driver, "%s",
-             text_of(result, "device_driver"));
-    snprintf(kept->device_api, sizeof kept->device_api, "%s", text_of(result, "device_api"));
-    kept->has_gpu_clock = json_is_true(json_object_get(result, "has_gpu_clock"));
-    kept->is_software = software != NULL ? json_is_true(software) : !kept->has_gpu_clock;
+    snprintf(kept->device_name, sizeof kept->device_name, "%s", device.name);
+    snprintf(kept->device_driver, sizeof kept->device_driver, "%s", device.driver);
+    snprintf(kept->device_api, sizeof kept->device_api, "%s", device.api);
+    kept->has_gpu_clock = device.has_gpu_clock;
+    kept->is_software = device.is_software;
 }
 
 static void worsen(fm_case_result *kept, uint32_t launch, fm_case_status status,
@@ -229,38 +222,38 @@ static void compare_image(fm_results *results, size_t case_index, uint32_t launc
         worsen(kept, launch, FM_CASE_WRONG_IMAGE, "drew another image than the checked launch 0");
 }
 
-static fm_status keep(fm_results *results, size_t case_index, uint32_t launch, const json_t *result,
+static fm_status keep(fm_results *results, size_t case_index, uint32_t launch, const json_t *answer,
                       fm_error *err)
 {
     fm_case_result *kept = &results->cases[case_index];
-    fm_case_status status = FM_CASE_CRASH;
+    const fm_case_status status = answer_status(answer);
     size_t index;
     const json_t *sample;
-    case_status_parse(&status, text_of(result, "status"));
-    worsen(kept, launch, status, text_of(result, "message"));
-    keep_device(kept, result);
+    worsen(kept, launch, status, answer_message(answer));
+    keep_device(kept, answer);
     kept->launches[launch].is_done = true;
     kept->done++;
     snprintf(kept->launches[launch].image_hash, sizeof kept->launches[launch].image_hash, "%s",
-             text_of(result, "image_hash"));
+             answer_image_hash(answer));
     compare_image(results, case_index, launch);
     if (launch == 0) {
-        kept->metrics = json_incref(json_object_get(result, "metrics"));
-        kept->modelled = json_incref(json_object_get(result, "modelled"));
+        kept->metrics = json_incref(answer_metrics(answer));
+        kept->modelled = json_incref(answer_modelled(answer));
     }
     /* Times of a launch that went wrong stand for nothing. */
     if (!case_status_continues(status))
         return FM_OK;
-    json_array_foreach(json_object_get(result, "samples"), index, sample)
+    json_array_foreach(answer_samples(answer), index, sample)
     {
-        const fm_status kept_status = keep_sample(kept, launch, sample, err);
+        const fm_answer_sample read = answer_sample(sample);
+        const fm_status kept_status = keep_sample(kept, launch, &read, err);
         if (kept_status != FM_OK)
             return kept_status;
     }
     return FM_OK;
 }
 
-fm_status results_add(fm_results *results, size_t case_index, uint32_t launch, const json_t *result,
+fm_status results_add(fm_results *results, size_t case_index, uint32_t launch, const json_t *answer,
                       fm_error *err)
 {
     const char *case_id = results->plan->cases[case_index].id;
@@ -268,13 +261,16 @@ fm_status results_add(fm_results *results, size_t case_index, uint32_t launch, c
     fm_text rows = { 0 };
     size_t index;
     const json_t *sample;
-    fm_status status = keep(results, case_index, launch, result, err);
+    fm_status status = keep(results, case_index, launch, answer, err);
     if (status != FM_OK)
         return status;
     free(kept->row);
     kept->row = NULL;
-    json_array_foreach(json_object_get(result, "samples"), index, sample)
-        add_sample_row(&rows, results, case_id, launch, sample);
+    json_array_foreach(answer_samples(answer), index, sample)
+    {
+        const fm_answer_sample read = answer_sample(sample);
+        add_sample_row(&rows, results, case_id, launch, &read);
+    }
     if (launch == 0)
         add_metric_rows(&rows, results, case_id, kept->metrics);
     status = append(results, &rows, err);

@@ -55,8 +55,8 @@ fm_status results_create(fm_results **results, const fm_plan *plan, const fm_plu
                          const char *directory, const char *run_id, fm_error *err);
 void results_destroy(fm_results *results);
 
-/* Takes one launch's result (worker.h): status, samples, metrics; appends its rows. */
-fm_status results_add(fm_results *results, size_t case_index, uint32_t launch, const json_t *result,
+/* Takes one launch's answer (protocol.h): status, samples, metrics; appends its rows. */
+fm_status results_add(fm_results *results, size_t case_index, uint32_t launch, const json_t *answer,
                       fm_error *err);
 
 /* No further launch of this case is wanted. */

@@ -15,7 +15,8 @@
 #include "manifest.h"
 #include "progress.h"
 #include "results.h"
-#include "worker/request.h"
+#include "truth_jobs.h"
+#include "worker/protocol.h"
 
 enum { TIMEOUT_DEFAULT_S = 600 };
 
@@ -145,8 +146,8 @@ static fm_status bury_killers(run_state *run, fm_error *err)
             const fm_launch_state *state = &run->results->cases[i].launches[launch];
             if (state->is_done || state->begins < 2)
                 continue;
-            json_t *result = launch_result(
-                FM_CASE_CRASH, "began twice and never ended: the whole run died with it");
+            json_t *result = answer_make(FM_CASE_CRASH,
+                                         "began twice and never ended: the whole run died with it");
             status = end_launch(run, i, launch, result, err);
             json_decref(result);
         }
@@ -207,7 +208,7 @@ static fm_status ask(fm_launch_outcome *outcome, run_state *run, const char *nam
     if (status != FM_OK)
         return status;
     run->stop_signal = outcome->stop_signal;
-    if (outcome->is_interrupted || launch_status(outcome->result) <= FM_CASE_WRONG_IMAGE) {
+    if (outcome->is_interrupted || answer_status(outcome->result) <= FM_CASE_WRONG_IMAGE) {
         unlink(request_path);
         unlink(result_path);
     }
@@ -234,9 +235,8 @@ static fm_status fail_truth(run_state *run, size_t job, const json_t *result, fm
 {
     fm_status status = FM_OK;
     char message[2048];
-    const char *below = json_string_value(json_object_get(result, "message"));
-    snprintf(message, sizeof message, "no truth: %.2000s", below != NULL ? below : "");
-    json_t *verdict = launch_result(launch_status(result), message);
+    snprintf(message, sizeof message, "no truth: %.2000s", answer_message(result));
+    json_t *verdict = answer_make(answer_status(result), message);
     for (size_t i = 0; i < run->plan->count && status == FM_OK; i++) {
         if (run->truths.of_case[i] != job || !is_pending(run, i))
             continue;
@@ -247,6 +247,14 @@ static fm_status fail_truth(run_state *run, size_t job, const json_t *result, fm
     }
     json_decref(verdict);
     return status;
+}
+
+/* The run's own files failed: the launch stays unfinished, nobody gets a verdict, and the run
+ * stops, to be continued when the fault is gone. */
+static fm_status fail_run(const json_t *answer, const char *current, fm_error *err)
+{
+    return fm_fail(err, FM_IO, "%s: %s; the launch is not finished, and the same command continues",
+                   current, answer_message(answer));
 }
 
 static const char *plugin_path(const run_state *run, const fm_case *of)
@@ -271,7 +279,11 @@ static fm_status capture_truth(run_state *run, size_t job, fm_error *err)
         return FM_OK;
     }
     const fm_request request = {
-        .of = of,
+        .device = of->device,
+        .feed = of->feed,
+        .settings = &of->settings,
+        .choices = of->choices,
+        .choice_count = of->choice_count,
         .plugin = plugin_path(run, of),
         .floor = run->truths.jobs[job].floor,
         .common = run->plugins->common_folder,
@@ -284,7 +296,9 @@ static fm_status capture_truth(run_state *run, size_t job, fm_error *err)
     status = ask(&outcome, run, name, &request, err);
     if (status != FM_OK || outcome.is_interrupted)
         return status;
-    if (launch_status(outcome.result) != FM_CASE_OK)
+    if (answer_is_runs_fault(outcome.result))
+        status = fail_run(outcome.result, current, err);
+    else if (answer_status(outcome.result) != FM_CASE_OK)
         status = fail_truth(run, job, outcome.result, err);
     progress_end(&run->progress, outcome.seconds);
     json_decref(outcome.result);
@@ -311,7 +325,11 @@ static fm_status measure(run_state *run, size_t case_index, uint32_t launch, fm_
              has_k ? " k=" : "", has_k ? k : "", of->scene, of->device, of->feed, launch);
     progress_begin(&run->progress, current);
     const fm_request request = {
-        .of = of,
+        .device = of->device,
+        .feed = of->feed,
+        .settings = &of->settings,
+        .choices = of->choices,
+        .choice_count = of->choice_count,
         .plugin = plugin_path(run, of),
         .floor = run->truths.jobs[run->truths.of_case[case_index]].floor,
         .common = run->plugins->common_folder,
@@ -325,9 +343,15 @@ static fm_status measure(run_state *run, size_t case_index, uint32_t launch, fm_
     status = ask(&outcome, run, of->id, &request, err);
     if (status != FM_OK)
         return status;
+    const bool is_unfinished = outcome.is_interrupted || answer_is_runs_fault(outcome.result);
+    if (is_unfinished)
+        status = journal_write(run->journal, FM_JOURNAL_STOP, of->id, launch, NULL, err);
+    else
+        status = end_launch(run, case_index, launch, outcome.result, err);
     if (outcome.is_interrupted)
-        return journal_write(run->journal, FM_JOURNAL_STOP, of->id, launch, NULL, err);
-    status = end_launch(run, case_index, launch, outcome.result, err);
+        return status;
+    if (status == FM_OK && is_unfinished)
+        status = fail_run(outcome.result, current, err);
     progress_end(&run->progress, outcome.seconds);
     json_decref(outcome.result);
     return status;

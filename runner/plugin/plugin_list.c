@@ -8,7 +8,6 @@
 
 #include "base/text.h"
 #include "model/feeds.h"
-#include "plan/plan.h"
 #include "plugin.h"
 
 /* Where plugins lie, beside what is given and FRAGMARK_PLUGIN_PATH. */

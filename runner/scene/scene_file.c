@@ -9,7 +9,6 @@
 
 #include "base/path.h"
 #include "base/text.h"
-#include "plan/plan.h"
 
 /* Texts for people; no settings. */
 static const char *const described[] = { "title", "source", "checksum", "licence", "stand_in_for" };

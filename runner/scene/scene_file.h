@@ -15,4 +15,16 @@ fm_status scene_file_find(char path[FM_PATH_MAX_BYTES], const char *name, fm_err
 fm_status scene_file_value(char text[FM_PATH_MAX_BYTES], const fm_key *key, const fm_yaml *value,
                            const char *file, fm_error *err);
 
+/* Names and files of all scenes in the scene folders; lists end with NULL inside. */
+typedef struct fm_scene_names {
+    char (*names)[128];
+    char (*paths)[FM_PATH_MAX_BYTES];
+    size_t count;
+} fm_scene_names;
+fm_status scene_names_list(fm_scene_names *names, fm_error *err);
+void scene_names_free(fm_scene_names *names);
+
+/* Fills settings from a scene file: key: value lines, or nothing but a name. */
+fm_status scene_file_read(fm_settings *settings, const char *path, fm_error *err);
+
 #endif

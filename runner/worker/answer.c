@@ -1,11 +1,11 @@
 #include "answer.h"
 
-#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "plugin/culling_apply.h"
+#include "protocol.h"
 
 void answer_set_number(json_t *metrics, fm_metric metric, double value)
 {
@@ -24,16 +24,9 @@ void answer_set_count(json_t *metrics, fm_metric metric, uint64_t value)
     json_object_set_new(metrics, fm_metrics[metric].name, json_integer((json_int_t)value));
 }
 
-static void add_named_sample(json_t *samples, uint32_t frame, const char *name, double value)
-{
-    json_array_append_new(samples,
-                          json_pack("{s:i, s:s, s:f, s:s}", "frame", (int)frame, "metric", name,
-                                    "value", value, "unit", metric_describe(name)->unit));
-}
-
 void answer_add_sample(json_t *samples, uint32_t frame, fm_metric metric, double value)
 {
-    add_named_sample(samples, frame, fm_metrics[metric].name, value);
+    answer_add_sample_named(samples, frame, fm_metrics[metric].name, value);
 }
 
 /* Passes of the standard names have metrics of their own, the others are of a family. */
@@ -55,7 +48,7 @@ static void add_pass(json_t *samples, uint32_t frame, const char *name, double m
         }
     }
     snprintf(own, sizeof own, "pass.%s_ms", name);
-    add_named_sample(samples, frame, own, ms);
+    answer_add_sample_named(samples, frame, own, ms);
 }
 
 static void add_passes(json_t *samples, uint32_t frame, const fm_sample *sample,
@@ -129,11 +122,10 @@ static void add_checked(json_t *metrics, const fm_measurement *m, const fm_truth
     answer_set_number(metrics, FM_METRIC_TOTAL_RMSE, m->total_rmse);
 }
 
-static void add_metrics(json_t *result, const fm_answer_desc *of)
+static void add_metrics(json_t *answer, const fm_answer_desc *of)
 {
     const fm_measurement *m = of->measurement;
     json_t *metrics = json_object(), *samples = json_array();
-    char hash[17];
     answer_set_count(metrics, FM_METRIC_N, of->stage->n);
     answer_set_count(metrics, FM_METRIC_BYTES_ALLOCATED, m->bytes_allocated);
     answer_set_count(metrics, FM_METRIC_BYTES_PREDICTED, m->bytes_predicted);
@@ -152,14 +144,12 @@ static void add_metrics(json_t *result, const fm_answer_desc *of)
     }
     for (uint32_t i = 0; i < m->sample_count; i++)
         add_frame(samples, i, &m->samples[i], of);
-    snprintf(hash, sizeof hash, "%016" PRIx64, image_hash(m->image));
-    json_object_set_new(result, "image_hash", json_string(hash));
-    json_object_set_new(result, "metrics", metrics);
-    json_object_set_new(result, "samples", samples);
+    answer_set_image_hash(answer, image_hash(m->image));
+    answer_set_measured(answer, metrics, samples);
 }
 
 /* What was allocated and run for this scene, and so what was not. */
-static void add_modelled(json_t *result, const fm_answer_desc *of)
+static void add_modelled(json_t *answer, const fm_answer_desc *of)
 {
     json_t *scene = json_array(), *passes = json_array(), *buffers = json_array();
     for (int i = 0; i < STAGE_SLOT_COUNT; i++)
@@ -171,22 +161,20 @@ static void add_modelled(json_t *result, const fm_answer_desc *of)
         json_array_append_new(passes, json_string(of->method->passes[i].name));
     for (size_t i = 0; i < FM_MAX_RESOURCES && of->method->resources[i].name != NULL; i++)
         json_array_append_new(buffers, json_string(of->method->resources[i].name));
-    json_object_set_new(
-        result, "modelled",
-        json_pack("{s:o, s:o, s:o}", "scene", scene, "passes", passes, "buffers", buffers));
+    answer_set_modelled(answer, scene, passes, buffers);
 }
 
-void answer_add_measured(json_t *result, const fm_answer_desc *of)
+void answer_add_measured(json_t *answer, const fm_answer_desc *of)
 {
-    add_metrics(result, of);
-    add_modelled(result, of);
+    add_metrics(answer, of);
+    add_modelled(answer, of);
 }
 
-void answer_add_truth(json_t *result, const fm_truth *truth)
+void answer_add_truth(json_t *answer, const fm_truth *truth)
 {
     json_t *metrics = json_object();
     answer_set_count(metrics, FM_METRIC_N, truth->n);
     answer_set_count(metrics, FM_METRIC_FRAGMENTS_GENERATED, truth->fragment_count);
     answer_set_count(metrics, FM_METRIC_NONEMPTY_PIXELS, truth->nonempty_pixels);
-    json_object_set_new(result, "metrics", metrics);
+    answer_set_measured(answer, metrics, json_array());
 }

@@ -11,6 +11,7 @@
 #include "base/clock.h"
 #include "base/image.h"
 #include "generators/generate.h"
+#include "protocol.h"
 #include "simulator/models/cycles.h"
 #include "simulator/models/energy.h"
 #include "simulator/tbr.h"
@@ -317,7 +318,7 @@ static void set_metrics(run_state *run)
 }
 
 /* What of the simulator ran for this technique and sequence. */
-static json_t *modelled(const run_state *run)
+static void set_modelled(json_t *answer, const run_state *run)
 {
     static const char *const names[] = { "visibility",   "signatures",  "taint",
                                          "exact ties",   "paper types", "owners",
@@ -330,12 +331,11 @@ static json_t *modelled(const run_state *run)
             json_array_append_new(parts, json_string(names[i]));
     if (run->sum.layer_lookups > 0)
         json_array_append_new(scene, json_string("layers"));
-    return json_pack("{s:o, s:o, s:[]}", "scene", scene, "passes", parts, "buffers");
+    answer_set_modelled(answer, scene, parts, json_array());
 }
 
-static fm_status finish(json_t *result, run_state *run, fm_error *err)
+static fm_status finish(json_t *answer, run_state *run, fm_error *err)
 {
-    char hash[17];
     const size_t bytes = (size_t)run->sequence->width_px * run->sequence->height_px * 4;
     fm_status status = FM_OK;
     if (run->job->method == NULL) {
@@ -347,11 +347,9 @@ static fm_status finish(json_t *result, run_state *run, fm_error *err)
     if (status != FM_OK)
         return status;
     set_metrics(run);
-    snprintf(hash, sizeof hash, "%016" PRIx64, XXH64(tbr_image(run->gpu), bytes, 0));
-    json_object_set_new(result, "image_hash", json_string(hash));
-    json_object_set(result, "metrics", run->metrics);
-    json_object_set(result, "samples", run->samples);
-    json_object_set_new(result, "modelled", modelled(run));
+    answer_set_image_hash(answer, XXH64(tbr_image(run->gpu), bytes, 0));
+    answer_set_measured(answer, json_incref(run->metrics), json_incref(run->samples));
+    set_modelled(answer, run);
     return FM_OK;
 }
 
@@ -362,8 +360,8 @@ static fm_status start(run_state *run, fm_error *err)
     fm_status status = model_table_read(&run->table, job->settings->model, err);
     if (status == FM_OK)
         status = sequence_create(&run->sequence, job->settings, err);
-    if (status != FM_OK)
-        return status;
+    if (status != FM_OK) /* a scene or a model that cannot be had */
+        return status == FM_INVALID || status == FM_IO ? FM_UNSUPPORTED : status;
     const uint32_t side = FM_TILE_SIDE;
     const uint32_t across = (run->sequence->width_px + side - 1) / side;
     const uint32_t tiles = across * ((run->sequence->height_px + side - 1) / side);
@@ -385,7 +383,7 @@ static fm_status start(run_state *run, fm_error *err)
     return status;
 }
 
-fm_status technique_job_run(json_t *result, uint64_t *wrong_tiles, const fm_technique_job *job,
+fm_status technique_job_run(json_t *answer, uint64_t *wrong_tiles, const fm_technique_job *job,
                             fm_error *err)
 {
     run_state run = { .job = job, .samples = json_array(), .metrics = json_object() };
@@ -393,7 +391,7 @@ fm_status technique_job_run(json_t *result, uint64_t *wrong_tiles, const fm_tech
     if (status == FM_OK)
         status = run_frames(&run, err);
     if (status == FM_OK)
-        status = finish(result, &run, err);
+        status = finish(answer, &run, err);
     *wrong_tiles = run.wrong_tiles;
     json_decref(run.samples);
     json_decref(run.metrics);

@@ -1,6 +1,6 @@
 /* A launch whose feed is `frames`: a technique runs a whole sequence on the simulated GPU.
  *
- * The result gets (worker.h) image_hash of the last frame; samples of each frame: frame.cycles,
+ * The answer gets (protocol.h) image_hash of the last frame; samples of each frame: frame.cycles,
  * frame.energy_nj, frame.tiles_skipped, frame.fragments_shaded, frame.wrong_tiles; and metrics.
  *
  * Metrics that are sums over all frames but the first, in which no technique has anything to go by:
@@ -28,9 +28,11 @@ typedef struct fm_technique_job {
     const char *image; /* file for the last frame where it is not the baseline's; "": none */
 } fm_technique_job;
 
-/* *wrong_tiles: of all frames. FM_INVALID, FM_IO: a sequence or a truth file that cannot be used.
+/* *wrong_tiles: of all frames. FM_UNSUPPORTED: a sequence or a model that cannot be had.
+ * FM_INVALID: a frame that the simulator does not take. FM_IO: the truth or the image cannot be
+ * read or written.
  */
-fm_status technique_job_run(json_t *result, uint64_t *wrong_tiles, const fm_technique_job *job,
+fm_status technique_job_run(json_t *answer, uint64_t *wrong_tiles, const fm_technique_job *job,
                             fm_error *err);
 
 #endif

@@ -1,10 +1,7 @@
 #include "worker.h"
 
 #include <inttypes.h>
-#include <jansson.h>
-#include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "answer.h"
@@ -14,17 +11,18 @@
 #include "model/feeds.h"
 #include "plugin/culling_apply.h"
 #include "plugin/plugin.h"
+#include "protocol.h"
 #include "technique_job.h"
 
 /* Everything a launch holds. */
 typedef struct launch_job {
-    json_t *request, *result;
+    fm_read_request read;
+    const fm_request *request; /* in `read` */
+    json_t *answer;
     fm_device *device;
     fm_plugin *method, *floor;
-    fm_method_desc desc; /* the method, with culling if that is asked for */
-    fm_settings settings;
-    fm_choice choices[FM_MAX_OPTIONS];
-    size_t choice_count;
+    fm_method_desc desc;  /* the method, with culling if that is asked for */
+    fm_settings settings; /* finished */
     uint32_t feed;
     fm_scene *scene;
     fm_truth *truth;
@@ -33,52 +31,13 @@ typedef struct launch_job {
     fm_measurement measurement;
     uint64_t wrong_tiles; /* of a technique */
     fm_error error;
-    const char *failed_in; /* "plugin": a failure is the plugin's fault */
+    bool is_plugins; /* the plugin is at work: what fails now is its fault */
+    bool is_opening; /* it is being opened: whatever the status, it is refused */
 } launch_job;
-
-/* ---- request ---- */
-
-static const char *text_of(const launch_job *job, const char *key)
-{
-    const char *text = json_string_value(json_object_get(job->request, key));
-    return text != NULL ? text : "";
-}
-
-static bool is_set(const launch_job *job, const char *key)
-{
-    return json_is_true(json_object_get(job->request, key));
-}
-
-static fm_status read_settings(launch_job *job)
-{
-    const char *name;
-    json_t *value;
-    fm_status status = FM_OK;
-    settings_default(&job->settings);
-    json_object_foreach(json_object_get(job->request, "settings"), name, value)
-    {
-        const fm_key *key = key_find(name);
-        const char *text = json_string_value(value);
-        if (key == NULL || text == NULL)
-            return fm_fail(&job->error, FM_INVALID, "request: settings: '%s'", name);
-        status = settings_set(&job->settings, key, text, &job->error);
-        if (status != FM_OK)
-            return status;
-    }
-    json_object_foreach(json_object_get(job->request, "options"), name, value)
-    {
-        if (job->choice_count == FM_MAX_OPTIONS || !json_is_string(value))
-            return fm_fail(&job->error, FM_INVALID, "request: options: '%s'", name);
-        fm_choice *choice = &job->choices[job->choice_count++];
-        snprintf(choice->name, sizeof choice->name, "%s", name);
-        snprintf(choice->value, sizeof choice->value, "%s", json_string_value(value));
-    }
-    return status;
-}
 
 static fm_status read_feed(launch_job *job)
 {
-    const char *name = text_of(job, "feed");
+    const char *name = job->request->feed;
     job->feed = feed_from_name(name) & (FM_FEEDS_FRAGMENTS | FM_FEED_TRIANGLES);
     if (job->feed == 0)
         return fm_fail(&job->error, FM_UNSUPPORTED, "feed '%s' is not one that this device carries",
@@ -94,32 +53,27 @@ static fm_status not_the_plugins(fm_status status)
 
 static fm_status open_device(launch_job *job)
 {
-    const fm_device_desc desc = { .validation = is_set(job, "validation"),
-                                  .no_timers = is_set(job, "no_timers") };
-    fm_status status = device_open(&job->device, text_of(job, "device"), &desc, &job->error);
+    const fm_device_desc desc = { .validation = job->request->validation,
+                                  .no_timers = job->request->no_timers };
+    fm_status status = device_open(&job->device, job->request->device, &desc, &job->error);
     if (status != FM_OK)
         return not_the_plugins(status);
-    const fm_device_caps *caps = &job->device->caps;
-    json_object_set_new(job->result, "device_name", json_string(caps->name));
-    json_object_set_new(job->result, "device_driver", json_string(caps->driver));
-    json_object_set_new(job->result, "device_api", json_string(caps->api));
-    json_object_set_new(job->result, "has_gpu_clock", json_boolean(caps->has_gpu_clock));
-    json_object_set_new(job->result, "is_software", json_boolean(caps->is_software));
+    answer_set_device(job->answer, &job->device->caps);
     return FM_OK;
 }
 
 static bool has_frames(const launch_job *job)
 {
-    return feed_from_name(text_of(job, "feed")) == FM_FEED_FRAMES;
+    return feed_from_name(job->request->feed) == FM_FEED_FRAMES;
 }
 
 static fm_status open_plugins(launch_job *job)
 {
-    job->failed_in = "plugin";
-    fm_status status = plugin_open(&job->method, text_of(job, "plugin"), &job->error);
+    job->is_opening = true;
+    fm_status status = plugin_open(&job->method, job->request->plugin, &job->error);
     if (status == FM_OK && !has_frames(job))
-        status = plugin_open(&job->floor, text_of(job, "floor"), &job->error);
-    job->failed_in = NULL;
+        status = plugin_open(&job->floor, job->request->floor, &job->error);
+    job->is_opening = status != FM_OK;
     return status;
 }
 
@@ -133,28 +87,35 @@ static fm_status open_scene(launch_job *job)
     return not_the_plugins(status);
 }
 
-/* ---- verdict ---- */
-
-static const char *status_word(const launch_job *job, fm_status status)
+/* Files that the run itself writes and reads: disks fill, and somebody deletes. */
+static bool is_runs_fault(const launch_job *job, fm_status status)
 {
-    if (status != FM_OK && job->failed_in != NULL)
-        return "plugin_error";
+    return status == FM_IO && !job->is_opening && !job->is_plugins;
+}
+
+/* What a failure says of the case. The runner's own shaders, which a device refuses, and scenes
+ * that cannot be had are nothing that a method did wrong. */
+static fm_case_status verdict(const launch_job *job, fm_status status)
+{
+    const bool is_plugins = job->is_opening || job->is_plugins;
+    if (status != FM_OK && job->is_opening)
+        return FM_CASE_PLUGIN_ERROR;
     switch (status) {
     case FM_OK:
-        return "ok";
+        return FM_CASE_OK;
     case FM_UNSUPPORTED:
-        return "not_supported";
+        return FM_CASE_NOT_SUPPORTED;
     case FM_NO_MEMORY:
-        return "out_of_memory";
+        return FM_CASE_OUT_OF_MEMORY;
     case FM_DEVICE_LOST:
-        return "device_lost";
+        return FM_CASE_DEVICE_LOST;
     case FM_INVALID:
     case FM_IO:
     case FM_SHADER:
     case FM_STATUS_COUNT:
         break;
     }
-    return "plugin_error";
+    return is_plugins ? FM_CASE_PLUGIN_ERROR : FM_CASE_NOT_SUPPORTED;
 }
 
 /* An exact method is judged; of others wrong images are data. */
@@ -187,31 +148,28 @@ static bool is_wrong(launch_job *job)
     return true;
 }
 
-/* ---- jobs ---- */
-
 /* Frames: the simulated GPU runs the whole sequence; a truth job has no method, the baseline. */
 static fm_status frames_job(launch_job *job)
 {
     const fm_technique_job desc = {
         .method = job->method != NULL ? job->method->method : NULL,
         .settings = &job->settings,
-        .choices = job->choices,
-        .choice_count = job->choice_count,
-        .truth = text_of(job, "truth"),
-        .image = text_of(job, "image"),
+        .choices = job->request->choices,
+        .choice_count = job->request->choice_count,
+        .truth = job->request->truth,
+        .image = job->request->image,
     };
     fm_status status = open_device(job);
     if (status == FM_OK)
         status = not_the_plugins(settings_finish(&job->settings, &job->error));
     if (status == FM_OK)
-        status =
-            not_the_plugins(technique_job_run(job->result, &job->wrong_tiles, &desc, &job->error));
+        status = technique_job_run(job->answer, &job->wrong_tiles, &desc, &job->error);
     return status;
 }
 
 static fm_status truth_job(launch_job *job)
 {
-    const char *path = text_of(job, "truth");
+    const char *path = job->request->truth;
     if (has_frames(job))
         return frames_job(job);
     fm_status status = read_feed(job);
@@ -220,26 +178,26 @@ static fm_status truth_job(launch_job *job)
     if (status == FM_OK)
         status = open_scene(job);
     if (status == FM_OK)
-        status = truth_capture(path, job->device, job->scene, job->feed, text_of(job, "common"),
+        status = truth_capture(path, job->device, job->scene, job->feed, job->request->common,
                                &job->error);
     if (status == FM_OK)
         status = truth_open(&job->truth, path, &job->error);
     if (status != FM_OK)
         return status;
-    answer_add_truth(job->result, job->truth);
+    answer_add_truth(job->answer, job->truth);
     return FM_OK;
 }
 
 static fm_status write_images(launch_job *job)
 {
-    const char *path = text_of(job, "image");
+    const char *path = job->request->image;
     char truth_path[FM_PATH_MAX_BYTES];
     static const char suffix[] = ".rgba32f";
     const size_t length = strlen(path);
     if (length == 0)
         return FM_OK;
     if (length < sizeof suffix || length + sizeof ".truth" > sizeof truth_path)
-        return fm_fail(&job->error, FM_INVALID, "request: image: '%s'", path);
+        return fm_fail(&job->error, FM_IO, "the image's path '%s' is too short or too long", path);
     snprintf(truth_path, sizeof truth_path, "%.*s.truth%s", (int)(length - sizeof suffix + 1), path,
              suffix);
     fm_status status = image_write(path, job->measurement.image, &job->error);
@@ -250,15 +208,15 @@ static fm_status write_images(launch_job *job)
 
 static fm_status measure(launch_job *job)
 {
-    const char *common = text_of(job, "common");
+    const char *common = job->request->common;
     const uint32_t places = measure_places(&job->desc, job->settings.k);
     const fm_instance_desc method = {
         .stage = job->stage,
         .method = &job->desc,
         .folders = { job->method->folder, common },
         .settings = &job->settings,
-        .choices = job->choices,
-        .choice_count = job->choice_count,
+        .choices = job->request->choices,
+        .choice_count = job->request->choice_count,
         .fragments = job->truth->fragment_count,
         .fragments_kept = truth_kept(job->truth, places),
     };
@@ -271,18 +229,29 @@ static fm_status measure(launch_job *job)
                                    .truth = job->truth,
                                    .frames = job->settings.frames,
                                    .warmup = job->settings.warmup,
-                                   .check = is_set(job, "check") };
+                                   .check = job->request->check };
     return measure_case(&job->measurement, &desc, &job->error);
 }
 
 static fm_status cull(launch_job *job)
 {
     const fm_culling_desc desc = { .settings = &job->settings,
-                                   .choices = job->choices,
-                                   .choice_count = job->choice_count,
+                                   .choices = job->request->choices,
+                                   .choice_count = job->request->choice_count,
                                    .n = job->stage->n,
                                    .feed = job->feed };
     return culling_apply(&job->desc, job->method->method, &desc, &job->error);
+}
+
+/* What the plugin itself is at work in. */
+static fm_status run_method(launch_job *job)
+{
+    job->is_plugins = true;
+    fm_status status = cull(job);
+    if (status == FM_OK)
+        status = measure(job);
+    job->is_plugins = status != FM_OK;
+    return status;
 }
 
 static fm_status measure_job(launch_job *job)
@@ -297,16 +266,14 @@ static fm_status measure_job(launch_job *job)
     if (status == FM_OK)
         status = open_scene(job);
     if (status == FM_OK)
-        status = truth_open(&job->truth, text_of(job, "truth"), &job->error);
+        status = truth_open(&job->truth, job->request->truth, &job->error);
     if (status == FM_OK)
         status =
             stage_create(&job->stage, job->device, job->scene, job->truth, job->feed, &job->error);
-    if (status == FM_OK)
-        status = cull(job);
     if (status == FM_OK) {
-        snprintf(job->hull, sizeof job->hull, "%s.hull", text_of(job, "truth"));
+        snprintf(job->hull, sizeof job->hull, "%s.hull", job->request->truth);
         job->stage->hull_cache = job->hull;
-        status = measure(job);
+        status = run_method(job);
     }
     if (status == FM_OK)
         status = write_images(job);
@@ -320,7 +287,7 @@ static fm_status measure_job(launch_job *job)
                                     .settings = &job->settings,
                                     .truth = job->truth,
                                     .stage = job->stage };
-    answer_add_measured(job->result, &answer);
+    answer_add_measured(job->answer, &answer);
     return FM_OK;
 }
 
@@ -328,22 +295,11 @@ static fm_status measure_job(launch_job *job)
 static void note_validation(launch_job *job)
 {
     const char *first = "";
-    if (job->device == NULL || !is_set(job, "validation"))
+    if (job->device == NULL || !job->request->validation)
         return;
     const uint32_t count = job->device->ops->validation_errors(job->device, &first);
     if (count > 0 && job->error.message[0] == '\0')
         fm_fail(&job->error, FM_OK, "validation: %u errors, the first: %s", count, first);
-}
-
-/* Compilers quote sources in any encoding, and long texts are cut anywhere: JSON takes UTF-8 only.
- */
-static json_t *message_json(fm_error *error)
-{
-    json_t *message = json_string(error->message);
-    for (char *c = error->message; message == NULL && *c != '\0'; c++)
-        if ((unsigned char)*c > '~')
-            *c = '?';
-    return message != NULL ? message : json_string(error->message);
 }
 
 static void release(launch_job *job)
@@ -355,28 +311,31 @@ static void release(launch_job *job)
     device_close(job->device);
     plugin_close(job->floor);
     plugin_close(job->method);
-    json_decref(job->request);
-    json_decref(job->result);
+    request_free(&job->read);
+    json_decref(job->answer);
 }
 
-int worker_main(const char *request_path, const char *result_path)
+/* wrong_image, if the method finished and its image is wrong. */
+static fm_case_status case_status_of(launch_job *job, fm_status status)
 {
-    launch_job job = { .result = json_object() };
-    json_error_t at;
-    job.request = json_load_file(request_path, 0, &at);
-    fm_status status = FM_OK;
-    if (job.request == NULL)
-        status = fm_fail(&job.error, FM_IO, "%s:%d: %s", request_path, at.line, at.text);
+    return status == FM_OK && is_wrong(job) ? FM_CASE_WRONG_IMAGE : verdict(job, status);
+}
+
+int worker_main(const char *request_path, const char *answer_path)
+{
+    launch_job job = { .answer = json_object() };
+    job.request = &job.read.request;
+    fm_status status = request_read(&job.read, request_path, &job.error);
+    job.settings = job.read.settings;
     if (status == FM_OK)
-        status = read_settings(&job);
-    if (status == FM_OK)
-        status = strcmp(text_of(&job, "job"), "truth") == 0 ? truth_job(&job) : measure_job(&job);
-    const char *word =
-        status == FM_OK && is_wrong(&job) ? "wrong_image" : status_word(&job, status);
-    json_object_set_new(job.result, "status", json_string(word));
+        status = job.request->is_truth_job ? truth_job(&job) : measure_job(&job);
+    const fm_case_status word = case_status_of(&job, status);
     note_validation(&job);
-    json_object_set_new(job.result, "message", message_json(&job.error));
-    const int written = json_dump_file(job.result, result_path, JSON_INDENT(1));
+    if (is_runs_fault(&job, status))
+        answer_set_runs_fault(job.answer, job.error.message);
+    else
+        answer_set_verdict(job.answer, word, job.error.message);
+    const int written = json_dump_file(job.answer, answer_path, JSON_INDENT(1));
     release(&job);
     return written == 0 ? 0 : 1;
 }

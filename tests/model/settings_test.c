@@ -11,6 +11,7 @@
 
 #include "model/settings.h"
 #include "plan/plan.h"
+#include "scene/scene_file.h"
 
 static fm_settings defaults(void)
 {

@@ -1,19 +1,9 @@
-/* What a worker is asked (worker.h), as a file; and which truth each case is compared with. */
-#ifndef FM_REQUEST_H
-#define FM_REQUEST_H
+/* Which truths a run needs, and which of them each case is compared with. */
+#ifndef FM_TRUTH_JOBS_H
+#define FM_TRUTH_JOBS_H
 
 #include "plan/plan.h"
-
-typedef struct fm_request {
-    const fm_case *of;                   /* truth jobs: one of the cases that it is for */
-    const char *plugin, *floor, *common; /* paths */
-    const char *truth;                   /* path of the truth file */
-    const char *image;                   /* path; "": none */
-    bool is_truth_job, check, validation, no_timers;
-    uint32_t launch;
-} fm_request;
-
-fm_status request_write(const char *path, const fm_request *request, fm_error *err);
+#include "plugin/plugin.h"
 
 /* One truth: a scene as a device's rasteriser sees it. raster and compute feeds share it, and the
  * floor that their cases are measured beside. */

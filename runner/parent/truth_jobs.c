@@ -1,51 +1,11 @@
-#include "request.h"
-#include "model/feeds.h"
+#include "truth_jobs.h"
 
 #include <ctype.h>
-#include <jansson.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static json_t *settings_json(const fm_settings *settings)
-{
-    char value[FM_PATH_MAX_BYTES];
-    json_t *object = json_object();
-    for (size_t i = 0; i < fm_key_count; i++) {
-        settings_text(value, settings, &fm_keys[i]);
-        json_object_set_new(object, fm_keys[i].name, json_string(value));
-    }
-    return object;
-}
-
-static json_t *options_json(const fm_case *of)
-{
-    json_t *object = json_object();
-    for (size_t i = 0; i < of->choice_count; i++)
-        json_object_set_new(object, of->choices[i].name, json_string(of->choices[i].value));
-    return object;
-}
-
-fm_status request_write(const char *path, const fm_request *request, fm_error *err)
-{
-    const fm_case *of = request->of;
-    json_t *object =
-        json_pack("{s:s, s:s, s:s, s:s, s:s, s:b, s:b, s:s, s:o, s:o, s:s, s:i, s:b, s:s}", "job",
-                  request->is_truth_job ? "truth" : "measure", "plugin", request->plugin, "floor",
-                  request->floor, "common", request->common, "device", of->device, "validation",
-                  (int)request->validation, "no_timers", (int)request->no_timers, "feed", of->feed,
-                  "settings", settings_json(&of->settings), "options", options_json(of), "truth",
-                  request->truth, "launch", (int)request->launch, "check", (int)request->check,
-                  "image", request->image);
-    char *text = object != NULL ? json_dumps(object, JSON_INDENT(1)) : NULL;
-    const fm_status status =
-        text != NULL ? text_write_file(path, text, strlen(text), err)
-                     : fm_fail(err, FM_INVALID,
-                               "%s: not written: no memory, or a path that is not UTF-8", path);
-    free(text);
-    json_decref(object);
-    return status;
-}
+#include "model/feeds.h"
 
 static void truth_name(char name[200], const fm_case *of)
 {

@@ -1,0 +1,293 @@
+#include "protocol.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/text.h"
+#include "model/metrics.h"
+
+static const char truth_job[] = "truth", measure_job[] = "measure";
+
+static const char *text_in(const json_t *object, const char *field)
+{
+    const char *text = json_string_value(json_object_get(object, field));
+    return text != NULL ? text : "";
+}
+
+static bool is_set(const json_t *object, const char *field)
+{
+    return json_is_true(json_object_get(object, field));
+}
+
+/* A text that may hold any bytes: compilers quote sources in any encoding, long texts are cut
+ * anywhere, and JSON takes UTF-8 only. */
+static json_t *any_text(const char *text)
+{
+    char *copy = strdup(text);
+    if (copy != NULL)
+        text_make_utf8(copy);
+    json_t *json = json_string(copy != NULL ? copy : "");
+    free(copy);
+    return json;
+}
+
+static json_t *settings_json(const fm_settings *settings)
+{
+    char value[FM_PATH_MAX_BYTES];
+    json_t *object = json_object();
+    for (size_t i = 0; i < fm_key_count; i++) {
+        settings_text(value, settings, &fm_keys[i]);
+        json_object_set_new(object, fm_keys[i].name, json_string(value));
+    }
+    return object;
+}
+
+static json_t *options_json(const fm_request *request)
+{
+    json_t *object = json_object();
+    for (size_t i = 0; i < request->choice_count; i++)
+        json_object_set_new(object, request->choices[i].name,
+                            json_string(request->choices[i].value));
+    return object;
+}
+
+fm_status request_write(const char *path, const fm_request *request, fm_error *err)
+{
+    json_t *object =
+        json_pack("{s:s, s:s, s:s, s:s, s:s, s:b, s:b, s:s, s:o, s:o, s:s, s:i, s:b, s:s}", "job",
+                  request->is_truth_job ? truth_job : measure_job, "plugin", request->plugin,
+                  "floor", request->floor, "common", request->common, "device", request->device,
+                  "validation", (int)request->validation, "no_timers", (int)request->no_timers,
+                  "feed", request->feed, "settings", settings_json(request->settings), "options",
+                  options_json(request), "truth", request->truth, "launch", (int)request->launch,
+                  "check", (int)request->check, "image", request->image);
+    char *text = object != NULL ? json_dumps(object, JSON_INDENT(1)) : NULL;
+    const fm_status status =
+        text != NULL ? text_write_file(path, text, strlen(text), err)
+                     : fm_fail(err, FM_INVALID,
+                               "%s: not written: no memory, or a path that is not UTF-8", path);
+    free(text);
+    json_decref(object);
+    return status;
+}
+
+static fm_status read_settings(fm_read_request *read, fm_error *err)
+{
+    const char *name;
+    json_t *value;
+    fm_status status = FM_OK;
+    settings_default(&read->settings);
+    json_object_foreach(json_object_get(read->json, "settings"), name, value)
+    {
+        const fm_key *key = key_find(name);
+        const char *text = json_string_value(value);
+        if (key == NULL || text == NULL)
+            return fm_fail(err, FM_INVALID, "request: settings: '%s'", name);
+        status = settings_set(&read->settings, key, text, err);
+        if (status != FM_OK)
+            return status;
+    }
+    return status;
+}
+
+static fm_status read_choices(fm_read_request *read, fm_error *err)
+{
+    const char *name;
+    json_t *value;
+    json_object_foreach(json_object_get(read->json, "options"), name, value)
+    {
+        if (read->request.choice_count == FM_MAX_OPTIONS || !json_is_string(value))
+            return fm_fail(err, FM_INVALID, "request: options: '%s'", name);
+        fm_choice *choice = &read->choices[read->request.choice_count++];
+        snprintf(choice->name, sizeof choice->name, "%s", name);
+        snprintf(choice->value, sizeof choice->value, "%s", json_string_value(value));
+    }
+    return FM_OK;
+}
+
+fm_status request_read(fm_read_request *read, const char *path, fm_error *err)
+{
+    json_error_t at;
+    *read = (fm_read_request){ .json = json_load_file(path, 0, &at) };
+    const json_t *json = read->json;
+    if (json == NULL)
+        return fm_fail(err, FM_IO, "%s:%d: %s", path, at.line, at.text);
+    read->request = (fm_request){
+        .is_truth_job = strcmp(text_in(json, "job"), truth_job) == 0,
+        .plugin = text_in(json, "plugin"),
+        .floor = text_in(json, "floor"),
+        .common = text_in(json, "common"),
+        .device = text_in(json, "device"),
+        .feed = text_in(json, "feed"),
+        .settings = &read->settings,
+        .choices = read->choices,
+        .truth = text_in(json, "truth"),
+        .image = text_in(json, "image"),
+        .check = is_set(json, "check"),
+        .validation = is_set(json, "validation"),
+        .no_timers = is_set(json, "no_timers"),
+        .launch = (uint32_t)json_integer_value(json_object_get(json, "launch")),
+    };
+    const fm_status status = read_settings(read, err);
+    return status == FM_OK ? read_choices(read, err) : status;
+}
+
+void request_free(fm_read_request *read)
+{
+    json_decref(read->json);
+    *read = (fm_read_request){ 0 };
+}
+
+void answer_set_device(json_t *answer, const fm_device_caps *caps)
+{
+    json_object_set_new(answer, "device_name", any_text(caps->name));
+    json_object_set_new(answer, "device_driver", any_text(caps->driver));
+    json_object_set_new(answer, "device_api", any_text(caps->api));
+    json_object_set_new(answer, "has_gpu_clock", json_boolean(caps->has_gpu_clock));
+    json_object_set_new(answer, "is_software", json_boolean(caps->is_software));
+}
+
+void answer_set_verdict(json_t *answer, fm_case_status status, const char *message)
+{
+    json_object_set_new(answer, "status", json_string(case_status_name(status)));
+    json_object_set_new(answer, "message", any_text(message));
+}
+
+void answer_set_runs_fault(json_t *answer, const char *message)
+{
+    answer_set_verdict(answer, FM_CASE_SKIPPED, message);
+    json_object_set_new(answer, "is_runs_fault", json_true());
+}
+
+void answer_set_image_hash(json_t *answer, uint64_t hash)
+{
+    char digits[17];
+    snprintf(digits, sizeof digits, "%016" PRIx64, hash);
+    json_object_set_new(answer, "image_hash", json_string(digits));
+}
+
+void answer_set_measured(json_t *answer, json_t *metrics, json_t *samples)
+{
+    json_object_set_new(answer, "metrics", metrics);
+    json_object_set_new(answer, "samples", samples);
+}
+
+void answer_set_modelled(json_t *answer, json_t *scene, json_t *passes, json_t *buffers)
+{
+    json_object_set_new(
+        answer, "modelled",
+        json_pack("{s:o, s:o, s:o}", "scene", scene, "passes", passes, "buffers", buffers));
+}
+
+void answer_add_sample_named(json_t *samples, uint32_t frame, const char *metric, double value)
+{
+    const fm_metric_info *info = metric_describe(metric);
+    json_array_append_new(samples,
+                          json_pack("{s:i, s:s, s:f, s:s}", "frame", (int)frame, "metric", metric,
+                                    "value", value, "unit", info != NULL ? info->unit : ""));
+}
+
+json_t *answer_make(fm_case_status status, const char *message)
+{
+    json_t *answer = json_object();
+    if (answer != NULL)
+        answer_set_verdict(answer, status, message);
+    return answer;
+}
+
+static const char *sample_fault(const json_t *sample)
+{
+    const json_t *frame = json_object_get(sample, "frame");
+    if (!json_is_integer(frame) || json_integer_value(frame) < 0 ||
+        json_integer_value(frame) > UINT32_MAX ||
+        !json_is_string(json_object_get(sample, "metric")) ||
+        !json_is_number(json_object_get(sample, "value")))
+        return "a sample lacks frame, metric or value";
+    return NULL;
+}
+
+const char *answer_fault(const json_t *answer)
+{
+    fm_case_status status;
+    size_t index;
+    const json_t *sample;
+    const json_t *samples = json_object_get(answer, "samples");
+    const json_t *metrics = json_object_get(answer, "metrics");
+    if (!json_is_object(answer))
+        return "not an object";
+    if (!case_status_parse(&status, json_string_value(json_object_get(answer, "status"))) ||
+        (status == FM_CASE_SKIPPED) != answer_is_runs_fault(answer))
+        return "'status' is none of the known words";
+    if (metrics != NULL && !json_is_object(metrics))
+        return "'metrics' is not an object";
+    if (samples != NULL && !json_is_array(samples))
+        return "'samples' is not a list";
+    json_array_foreach(samples, index, sample)
+    {
+        const char *fault = sample_fault(sample);
+        if (fault != NULL)
+            return fault;
+    }
+    return NULL;
+}
+
+fm_case_status answer_status(const json_t *answer)
+{
+    fm_case_status status = FM_CASE_CRASH;
+    case_status_parse(&status, json_string_value(json_object_get(answer, "status")));
+    return status;
+}
+
+bool answer_is_runs_fault(const json_t *answer)
+{
+    return is_set(answer, "is_runs_fault");
+}
+
+const char *answer_message(const json_t *answer)
+{
+    return text_in(answer, "message");
+}
+
+const char *answer_image_hash(const json_t *answer)
+{
+    return text_in(answer, "image_hash");
+}
+
+json_t *answer_metrics(const json_t *answer)
+{
+    return json_object_get(answer, "metrics");
+}
+
+json_t *answer_modelled(const json_t *answer)
+{
+    return json_object_get(answer, "modelled");
+}
+
+json_t *answer_samples(const json_t *answer)
+{
+    return json_object_get(answer, "samples");
+}
+
+fm_answer_sample answer_sample(const json_t *sample)
+{
+    return (fm_answer_sample){
+        .frame = (uint32_t)json_integer_value(json_object_get(sample, "frame")),
+        .metric = text_in(sample, "metric"),
+        .unit = text_in(sample, "unit"),
+        .value = json_number_value(json_object_get(sample, "value")),
+    };
+}
+
+bool answer_device(fm_answer_device *device, const json_t *answer)
+{
+    const json_t *software = json_object_get(answer, "is_software");
+    *device = (fm_answer_device){ .name = text_in(answer, "device_name"),
+                                  .driver = text_in(answer, "device_driver"),
+                                  .api = text_in(answer, "device_api"),
+                                  .has_gpu_clock = is_set(answer, "has_gpu_clock") };
+    /* Journals of older runs do not say it. */
+    device->is_software = software != NULL ? json_is_true(software) : !device->has_gpu_clock;
+    return device->name[0] != '\0';
+}

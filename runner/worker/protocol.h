@@ -1,0 +1,115 @@
+/* The protocol between the parent of a run and its workers: the only place that spells its fields.
+ *
+ * The parent executes `fragmark worker REQUEST.json ANSWER.json`. The request says what to do:
+ *   { "job": "measure" | "truth",
+ *     "plugin": "path of the method's .so", "floor": "path of the floor's .so, or empty",
+ *     "common": "folder of the runner's GLSL",
+ *     "device": "vulkan:0", "validation": false, "no_timers": false,
+ *     "feed": "raster",
+ *     "settings": { "k": "8", ... }      every key of fm_keys, as text
+ *     "options": { "layout": "layer" },  the method's own, only those given
+ *     "truth": "path of the truth file", "launch": 0,
+ *     "check": true,                     capture and compare all fragments
+ *     "image": "path to write the image to, or empty" }
+ *
+ * The answer is written at the end; a worker that dies leaves none:
+ *   { "status": a word of model/outcome.h, "message": "",
+ *     "is_runs_fault": false,            true: the run's own files failed, nothing was measured,
+ * and status is "skipped" "device_name": "...", "device_driver": "...", "device_api": "...",
+ *     "has_gpu_clock": false, "is_software": true,
+ *     "modelled": { "scene": [...], "passes": [...], "buffers": [...] },     names
+ *     "image_hash": "16 hex digits",
+ *     "metrics": { "n": 128, "bytes_allocated": ..., ... }   one number a case, by its metric's
+ * name "samples": [ { "frame": 0, "metric": "store_ms", "value": 1.25, "unit": "ms" }, ... ] }
+ * Names, units and meanings of metrics are in model/metrics.h. With "check" the answer has the
+ * metrics that come from comparing with truth; with timers=frame it has no times of passes. A
+ * "truth" job writes the truth file and answers status, message and the metrics of truth. */
+#ifndef FM_PROTOCOL_H
+#define FM_PROTOCOL_H
+
+#include <jansson.h>
+#include <stdbool.h>
+
+#include "base/error.h"
+#include "device/device.h"
+#include "model/descriptor.h"
+#include "model/outcome.h"
+#include "model/settings.h"
+
+/* What a worker is asked. All borrowed. */
+typedef struct fm_request {
+    bool is_truth_job;
+    const char *plugin, *floor, *common; /* paths; floor "": a feed without times */
+    const char *device, *feed;           /* as the case names them */
+    const fm_settings *settings;
+    const fm_choice *choices; /* of the method's options: those given */
+    size_t choice_count;
+    const char *truth; /* path of the truth file */
+    const char *image; /* path of the image to be written; "": none */
+    bool check, validation, no_timers;
+    uint32_t launch;
+} fm_request;
+
+/* Writes the request whole or not at all. FM_IO; FM_INVALID: no memory, or a path that is not
+ * UTF-8.
+ */
+fm_status request_write(const char *path, const fm_request *request, fm_error *err);
+
+/* A request that was read, with what it borrows from. Starts as {0}. */
+typedef struct fm_read_request {
+    fm_request request;
+    fm_settings settings;
+    fm_choice choices[FM_MAX_OPTIONS];
+    json_t *json; /* holds the texts */
+} fm_read_request;
+
+/* FM_IO: no such file, or no JSON. FM_INVALID: an unknown key, an illegal value, too many options.
+ * request_free also after a failure. */
+fm_status request_read(fm_read_request *read, const char *path, fm_error *err);
+void request_free(fm_read_request *read);
+
+/* ---- what a worker answers: writing ---- */
+
+void answer_set_device(json_t *answer, const fm_device_caps *caps);
+/* Bytes of the message that are no UTF-8 become '?'. */
+void answer_set_verdict(json_t *answer, fm_case_status status, const char *message);
+/* The run's own files failed: no verdict on the method. */
+void answer_set_runs_fault(json_t *answer, const char *message);
+void answer_set_image_hash(json_t *answer, uint64_t hash);
+/* Takes the references. */
+void answer_set_measured(json_t *answer, json_t *metrics, json_t *samples);
+void answer_set_modelled(json_t *answer, json_t *scene, json_t *passes, json_t *buffers);
+/* One element of samples. */
+void answer_add_sample_named(json_t *samples, uint32_t frame, const char *metric, double value);
+/* An answer on behalf of a worker that left none; NULL without memory. */
+json_t *answer_make(fm_case_status status, const char *message);
+
+/* ---- reading ---- */
+
+/* What is wrong with an answer's form; NULL: nothing. What follows asks answers that have passed.
+ */
+const char *answer_fault(const json_t *answer);
+fm_case_status answer_status(const json_t *answer);
+bool answer_is_runs_fault(const json_t *answer);
+const char *answer_message(const json_t *answer);    /* "": there is none */
+const char *answer_image_hash(const json_t *answer); /* the same */
+json_t *answer_metrics(const json_t *answer);        /* borrowed; NULL: none */
+json_t *answer_modelled(const json_t *answer);       /* the same */
+json_t *answer_samples(const json_t *answer);        /* the same */
+
+typedef struct fm_answer_sample {
+    uint32_t frame;
+    const char *metric, *unit; /* borrowed from the answer */
+    double value;
+} fm_answer_sample;
+fm_answer_sample answer_sample(const json_t *sample);
+
+/* What an answer says of the device. */
+typedef struct fm_answer_device {
+    const char *name, *driver, *api; /* borrowed from the answer */
+    bool has_gpu_clock, is_software;
+} fm_answer_device;
+/* false: it says nothing, because the worker did not come so far. */
+bool answer_device(fm_answer_device *device, const json_t *answer);
+
+#endif

@@ -1,0 +1,157 @@
+/* What parent and worker say to each other. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "worker/protocol.h"
+
+static json_t *parsed(const char *text)
+{
+    json_t *answer = json_loads(text, JSON_DECODE_ANY, NULL);
+    assert_non_null(answer);
+    return answer;
+}
+
+static void assert_fault(const char *text, const char *fault)
+{
+    json_t *answer = parsed(text);
+    const char *found = answer_fault(answer);
+    assert_non_null(found);
+    assert_non_null(strstr(found, fault));
+    json_decref(answer);
+}
+
+static void request_comes_back_as_it_was_written(void **state)
+{
+    (void)state;
+    char path[] = "/tmp/fragmark-request-XXXXXX";
+    fm_settings settings;
+    fm_read_request read = { 0 };
+    const fm_choice choices[] = { { "layout", "tile" } };
+    settings_default(&settings);
+    settings.k = 7;
+    settings.n = 9;
+    const fm_request request = { .is_truth_job = true,
+                                 .plugin = "a/a.so",
+                                 .floor = "",
+                                 .common = "common",
+                                 .device = "vulkan:0",
+                                 .feed = "raster",
+                                 .settings = &settings,
+                                 .choices = choices,
+                                 .choice_count = 1,
+                                 .truth = "t.truth",
+                                 .image = "",
+                                 .no_timers = true,
+                                 .launch = 3 };
+    close(mkstemp(path));
+    assert_int_equal(request_write(path, &request, NULL), FM_OK);
+    assert_int_equal(request_read(&read, path, NULL), FM_OK);
+    assert_true(read.request.is_truth_job && read.request.no_timers);
+    assert_false(read.request.check || read.request.validation);
+    assert_string_equal(read.request.plugin, "a/a.so");
+    assert_string_equal(read.request.device, "vulkan:0");
+    assert_int_equal(read.request.launch, 3);
+    assert_memory_equal(read.request.settings, &settings, sizeof settings);
+    assert_int_equal(read.request.choice_count, 1);
+    assert_string_equal(read.request.choices[0].value, "tile");
+    request_free(&read);
+    unlink(path);
+}
+
+static void request_read_refuses_what_is_no_request(void **state)
+{
+    (void)state;
+    static const char *const texts[] = { "[", "{\"settings\": {\"colour\": \"red\"}}",
+                                         "{\"settings\": {\"k\": \"many\"}}",
+                                         "{\"options\": {\"layout\": 3}}" };
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
+        char path[] = "/tmp/fragmark-request-XXXXXX";
+        fm_read_request read = { 0 };
+        fm_error err = { 0 };
+        const int fd = mkstemp(path);
+        assert_int_equal(write(fd, texts[i], strlen(texts[i])), strlen(texts[i]));
+        close(fd);
+        assert_int_not_equal(request_read(&read, path, &err), FM_OK);
+        assert_true(err.message[0] != '\0');
+        request_free(&read);
+        unlink(path);
+    }
+}
+
+static void answer_fault_names_what_is_wrong(void **state)
+{
+    (void)state;
+    assert_fault("[]", "not an object");
+    assert_fault("{}", "'status'");
+    assert_fault("{\"status\": \"fine\"}", "'status'");
+    assert_fault("{\"status\": \"skipped\"}", "'status'");
+    assert_fault("{\"status\": \"ok\", \"is_runs_fault\": true}", "'status'");
+    assert_fault("{\"status\": \"ok\", \"metrics\": []}", "'metrics'");
+    assert_fault("{\"status\": \"ok\", \"samples\": {}}", "'samples'");
+    assert_fault("{\"status\": \"ok\", \"samples\": [{\"frame\": -1, \"metric\": \"x\", "
+                 "\"value\": 1}]}",
+                 "a sample");
+    assert_fault("{\"status\": \"ok\", \"samples\": [{\"frame\": 4294967296, \"metric\": \"x\", "
+                 "\"value\": 1}]}",
+                 "a sample");
+}
+
+static void answer_of_the_runs_fault_gives_no_verdict(void **state)
+{
+    (void)state;
+    json_t *answer = json_object();
+    answer_set_runs_fault(answer, "disk full");
+    assert_null(answer_fault(answer));
+    assert_true(answer_is_runs_fault(answer));
+    assert_int_equal(answer_status(answer), FM_CASE_SKIPPED);
+    assert_string_equal(answer_message(answer), "disk full");
+    json_decref(answer);
+}
+
+static void answer_takes_messages_of_any_bytes(void **state)
+{
+    (void)state;
+    json_t *answer = answer_make(FM_CASE_CRASH, "caf\xE9");
+    assert_non_null(answer);
+    assert_null(answer_fault(answer));
+    assert_string_equal(answer_message(answer), "caf?");
+    json_decref(answer);
+}
+
+static void answer_samples_carry_the_unit_of_their_metric(void **state)
+{
+    (void)state;
+    json_t *samples = json_array();
+    answer_add_sample_named(samples, 2, "store_ms", 1.5);
+    answer_add_sample_named(samples, 2, "pass.sort_ms", 0.5);
+    const fm_answer_sample store = answer_sample(json_array_get(samples, 0));
+    const fm_answer_sample sort = answer_sample(json_array_get(samples, 1));
+    assert_int_equal(store.frame, 2);
+    assert_string_equal(store.metric, "store_ms");
+    assert_true(store.value == 1.5);
+    assert_string_equal(store.unit, "ms");
+    assert_string_equal(sort.unit, "ms");
+    json_decref(samples);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(request_comes_back_as_it_was_written),
+        cmocka_unit_test(request_read_refuses_what_is_no_request),
+        cmocka_unit_test(answer_fault_names_what_is_wrong),
+        cmocka_unit_test(answer_of_the_runs_fault_gives_no_verdict),
+        cmocka_unit_test(answer_takes_messages_of_any_bytes),
+        cmocka_unit_test(answer_samples_carry_the_unit_of_their_metric),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
