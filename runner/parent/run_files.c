@@ -1,0 +1,67 @@
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "run_internal.h"
+
+fm_status run_path(char path[FM_PATH_MAX_BYTES], const run_state *run, const char *folder,
+                   const char *name, const char *ending, fm_error *err)
+{
+    char inside[FM_PATH_MAX_BYTES];
+    snprintf(inside, sizeof inside, "%s%s%s%s", folder, name[0] != '\0' ? "/" : "", name, ending);
+    return path_join(path, run->desc->directory, inside, err);
+}
+
+/* Like mkdir -p. */
+static fm_status make_folder(const char *path, fm_error *err)
+{
+    char part[FM_PATH_MAX_BYTES];
+    struct stat info;
+    snprintf(part, sizeof part, "%s", path);
+    for (char *slash = strchr(part + 1, '/'); slash != NULL; slash = strchr(slash + 1, '/')) {
+        *slash = '\0';
+        (void)mkdir(part, 0777); /* the last one tells */
+        *slash = '/';
+    }
+    if (mkdir(part, 0777) == 0 ||
+        (errno == EEXIST && stat(part, &info) == 0 && S_ISDIR(info.st_mode)))
+        return FM_OK;
+    return fm_fail(err, FM_INVALID, "%s: cannot be made: %s", path, strerror(errno));
+}
+
+fm_status run_make_folders(const run_state *run, fm_error *err)
+{
+    static const char *const folders[] = { "work", "truth", "images" };
+    char path[FM_PATH_MAX_BYTES], journal[FM_PATH_MAX_BYTES];
+    fm_status status = run_path(journal, run, "journal.jsonl", "", "", err);
+    if (status == FM_OK)
+        status = run_path(path, run, "summary.csv", "", "", err);
+    if (status == FM_OK && access(journal, F_OK) != 0 && access(path, F_OK) == 0)
+        status = fm_fail(err, FM_INVALID,
+                         "%s holds results that no journal belongs to: choose another -o",
+                         run->desc->directory);
+    for (size_t i = 0; i < sizeof folders / sizeof folders[0] && status == FM_OK; i++) {
+        if (run->desc->no_images && strcmp(folders[i], "images") == 0)
+            continue;
+        status = run_path(path, run, folders[i], "", "", err);
+        if (status == FM_OK)
+            status = make_folder(path, err);
+    }
+    return status;
+}
+
+void run_remove_truths(const run_state *run)
+{
+    static const char *const suffixes[] = { ".truth", ".truth.hull" };
+    char path[FM_PATH_MAX_BYTES];
+    for (size_t i = 0; i < 2 * run->truths.count; i++)
+        if (run_path(path, run, "truth", run->truths.jobs[i / 2].name, suffixes[i % 2], NULL) ==
+            FM_OK)
+            unlink(path);
+    if (run_path(path, run, "truth", "", "", NULL) == FM_OK)
+        rmdir(path);
+    if (run_path(path, run, "work", "", "", NULL) == FM_OK)
+        rmdir(path);
+}
