@@ -35,6 +35,7 @@ static fm_status fill(fm_scene *scene, fm_error *err)
     case FM_GENERATOR_FRAMES:
     case FM_GENERATOR_STREAM:
     case FM_GENERATOR_ADVERSARIAL:
+    case FM_GENERATOR_COUNT:
         break; /* no scene of fragments: frames.h */
     }
     return fm_fail(err, FM_INVALID, "generator %s: its scenes are for feed frames",

@@ -144,6 +144,8 @@ static uint32_t base_colour(const fm_settings *settings, uint32_t layer)
         return cycle[layer % 8];
     case FM_COLOURS_GREY:
         return 0x808080;
+    case FM_COLOURS_COUNT:
+        break;
     }
     return 0;
 }

@@ -25,6 +25,7 @@ static void (*build_of(fm_generator generator))(fm_builder *)
     case FM_GENERATOR_STREAM:
     case FM_GENERATOR_ADVERSARIAL:
     case FM_GENERATOR_BUNNY_IN_CUBE:
+    case FM_GENERATOR_COUNT:
         break;
     }
     return NULL;

@@ -52,6 +52,7 @@ static bool release_exchanges(const fm_instance *instance)
 {
     switch (instance->desc.settings->release) {
     case FM_RELEASE_AUTO:
+    case FM_RELEASE_COUNT:
         break;
     case FM_RELEASE_STORE:
         return false;

@@ -5,16 +5,105 @@
 
 #include "settings.h"
 
-_Static_assert(
-    sizeof(fm_generator) == sizeof(unsigned) && sizeof(fm_order) == sizeof(unsigned) &&
-        sizeof(fm_depths) == sizeof(unsigned) && sizeof(fm_colours) == sizeof(unsigned) &&
-        sizeof(fm_alphas) == sizeof(unsigned) && sizeof(fm_lock) == sizeof(unsigned) &&
-        sizeof(fm_release) == sizeof(unsigned) && sizeof(fm_buffers) == sizeof(unsigned) &&
-        sizeof(fm_pool) == sizeof(unsigned) && sizeof(fm_full_screen) == sizeof(unsigned) &&
-        sizeof(fm_culling) == sizeof(unsigned) && sizeof(fm_cull_range) == sizeof(unsigned) &&
-        sizeof(fm_cull_test) == sizeof(unsigned) && sizeof(fm_cull_memory) == sizeof(unsigned) &&
-        sizeof(fm_own_cull) == sizeof(unsigned) && sizeof(fm_timers) == sizeof(unsigned),
-    "FM_KEY_ENUM stores an unsigned");
+/* Names stand at their enumerator's index, and none is forgotten; settings_set stores an unsigned.
+ */
+#define ONE_NAME_EACH(names, count, type)                                                          \
+    _Static_assert(sizeof names / sizeof names[0] == (count) && sizeof(type) == sizeof(unsigned),  \
+                   "one name for each " #type)
+
+static const char *const generator_names[] = { [FM_GENERATOR_LAYERS] = "layers",
+                                               [FM_GENERATOR_MESH] = "mesh",
+                                               [FM_GENERATOR_BUNNY_IN_CUBE] = "bunny-in-cube",
+                                               [FM_GENERATOR_PALACE] = "palace",
+                                               [FM_GENERATOR_HAIRBALL] = "hairball",
+                                               [FM_GENERATOR_ENGINE] = "engine",
+                                               [FM_GENERATOR_TEMPLE] = "temple",
+                                               [FM_GENERATOR_HOTEL] = "hotel",
+                                               [FM_GENERATOR_IVY] = "ivy",
+                                               [FM_GENERATOR_FRAMES] = "frames",
+                                               [FM_GENERATOR_STREAM] = "stream",
+                                               [FM_GENERATOR_ADVERSARIAL] = "adversarial" };
+ONE_NAME_EACH(generator_names, FM_GENERATOR_COUNT, fm_generator);
+
+static const char *const order_names[] = { [FM_ORDER_RANDOM] = "random",
+                                           [FM_ORDER_RANDOM_CELL] = "random-cell",
+                                           [FM_ORDER_ASCENDING] = "ascending",
+                                           [FM_ORDER_DESCENDING] = "descending",
+                                           [FM_ORDER_CELL_MAJOR] = "cell-major" };
+ONE_NAME_EACH(order_names, FM_ORDER_COUNT, fm_order);
+
+static const char *const depths_names[] = {
+    [FM_DEPTHS_UNIFORM] = "uniform",   [FM_DEPTHS_CLUSTERED] = "clustered",
+    [FM_DEPTHS_COPLANAR] = "coplanar", [FM_DEPTHS_ULP] = "ulp",
+    [FM_DEPTHS_SLOPED] = "sloped",     [FM_DEPTHS_EQUAL] = "equal",
+    [FM_DEPTHS_STEP24] = "step24",     [FM_DEPTHS_ENDS] = "ends"
+};
+ONE_NAME_EACH(depths_names, FM_DEPTHS_COUNT, fm_depths);
+
+static const char *const colours_names[] = {
+    [FM_COLOURS_HASH] = "hash", [FM_COLOURS_CYCLE] = "cycle", [FM_COLOURS_GREY] = "grey"
+};
+ONE_NAME_EACH(colours_names, FM_COLOURS_COUNT, fm_colours);
+
+static const char *const alphas_names[] = {
+    [FM_ALPHAS_CONSTANT] = "constant", [FM_ALPHAS_RANDOM] = "random"
+};
+ONE_NAME_EACH(alphas_names, FM_ALPHAS_COUNT, fm_alphas);
+
+static const char *const lock_names[] = {
+    [FM_LOCK_SPIN] = "spin", [FM_LOCK_INTERLOCK] = "interlock"
+};
+ONE_NAME_EACH(lock_names, FM_LOCK_COUNT, fm_lock);
+
+static const char *const release_names[] = {
+    [FM_RELEASE_AUTO] = "auto", [FM_RELEASE_STORE] = "store", [FM_RELEASE_EXCHANGE] = "exchange"
+};
+ONE_NAME_EACH(release_names, FM_RELEASE_COUNT, fm_release);
+
+static const char *const buffers_names[] = {
+    [FM_BUFFERS_AUTO] = "auto", [FM_BUFFERS_BOUND] = "bound", [FM_BUFFERS_ADDRESS] = "address"
+};
+ONE_NAME_EACH(buffers_names, FM_BUFFERS_COUNT, fm_buffers);
+
+static const char *const pool_names[] = {
+    [FM_POOL_PREALLOCATED] = "preallocated", [FM_POOL_PER_FRAME] = "per-frame"
+};
+ONE_NAME_EACH(pool_names, FM_POOL_COUNT, fm_pool);
+
+static const char *const full_screen_names[] = {
+    [FM_FULL_SCREEN_COMPUTE] = "compute", [FM_FULL_SCREEN_FRAGMENT] = "fragment"
+};
+ONE_NAME_EACH(full_screen_names, FM_FULL_SCREEN_COUNT, fm_full_screen);
+
+static const char *const timers_names[] = {
+    [FM_TIMERS_PASSES] = "passes", [FM_TIMERS_FRAME] = "frame"
+};
+ONE_NAME_EACH(timers_names, FM_TIMERS_COUNT, fm_timers);
+
+static const char *const culling_names[] = {
+    [FM_CULLING_NONE] = "none", [FM_CULLING_OCCUPANCY] = "occupancy"
+};
+ONE_NAME_EACH(culling_names, FM_CULLING_COUNT, fm_culling);
+
+static const char *const cull_range_names[] = {
+    [FM_CULL_RANGE_HULL] = "hull", [FM_CULL_RANGE_AABB] = "aabb", [FM_CULL_RANGE_EXACT] = "exact"
+};
+ONE_NAME_EACH(cull_range_names, FM_CULL_RANGE_COUNT, fm_cull_range);
+
+static const char *const cull_test_names[] = {
+    [FM_CULL_TEST_EARLY] = "early", [FM_CULL_TEST_SHADER] = "shader"
+};
+ONE_NAME_EACH(cull_test_names, FM_CULL_TEST_COUNT, fm_cull_test);
+
+static const char *const cull_memory_names[] = {
+    [FM_CULL_MEMORY_OWN] = "own", [FM_CULL_MEMORY_SHARED] = "shared"
+};
+ONE_NAME_EACH(cull_memory_names, FM_CULL_MEMORY_COUNT, fm_cull_memory);
+
+static const char *const own_cull_names[] = { [FM_OWN_CULL_ON] = "on", [FM_OWN_CULL_OFF] = "off" };
+ONE_NAME_EACH(own_cull_names, FM_OWN_CULL_COUNT, fm_own_cull);
+
+#define NAMES(names) .values = (names), .value_count = sizeof(names) / sizeof(names)[0]
 
 #define AT(field) .offset = offsetof(fm_settings, field)
 #define ANY       .scope = FM_SCOPE_SCENE
@@ -35,7 +124,7 @@ const fm_key fm_keys[] = {
       .unit = "px", .help = "viewport" },
     { "height_px", FM_KEY_UINT, ANY, AT(height_px), .low = 1, .high = 16384, .fallback = "480",
       .unit = "px", .help = "viewport" },
-    { "generator", FM_KEY_ENUM, ANY, AT(generator), .values = { "layers", "mesh", "bunny-in-cube", "palace", "hairball", "engine", "temple", "hotel", "ivy", "frames", "stream", "adversarial" },
+    { "generator", FM_KEY_ENUM, ANY, AT(generator), NAMES(generator_names),
       .fallback = "layers", .help = "what makes the scene" },
     { "n", FM_KEY_UINT, LAYERS, AT(n), .low = 0, .high = 65536, .fallback = "none",
       .optional = true, .absent = FM_NOT_GIVEN, .help = "layers" },
@@ -48,14 +137,14 @@ const fm_key fm_keys[] = {
     { "tessellation", FM_KEY_UINT, LAYERS, AT(tessellation), .low = 1, .high = 64,
       .fallback = "16", .help = "t: each layer is t by t cells" },
     { "order", FM_KEY_ENUM, LAYERS, AT(order),
-      .values = { "random", "random-cell", "ascending", "descending", "cell-major" },
+      NAMES(order_names),
       .fallback = "random", .help = "in which layers arrive" },
     { "depths", FM_KEY_ENUM, LAYERS, AT(depths),
-      .values = { "uniform", "clustered", "coplanar", "ulp", "sloped", "equal", "step24", "ends" },
+      NAMES(depths_names),
       .fallback = "uniform", .help = "of the layers" },
-    { "colours", FM_KEY_ENUM, LAYERS, AT(colours), .values = { "hash", "cycle", "grey" },
+    { "colours", FM_KEY_ENUM, LAYERS, AT(colours), NAMES(colours_names),
       .fallback = "hash", .help = "of the layers" },
-    { "alphas", FM_KEY_ENUM, LAYERS, AT(alphas), .values = { "constant", "random" },
+    { "alphas", FM_KEY_ENUM, LAYERS, AT(alphas), NAMES(alphas_names),
       .fallback = "constant", .help = "alpha itself, or up to it" },
     { "alpha", FM_KEY_REAL, ANY, AT(alpha), .low = 0, .high = 1, .fallback = "0.3",
       .help = "opacity of a fragment" },
@@ -119,29 +208,29 @@ const fm_key fm_keys[] = {
       .fallback = "2", .unit = "B", .help = "from memory, for each shaded fragment" },
     { "k", FM_KEY_UINT, FM_SCOPE_CASE, AT(k), .low = 1, .high = 4096, .fallback = "8",
       .optional = true, .absent = 0, .help = "nearest fragments to keep" },
-    { "lock", FM_KEY_ENUM, FM_SCOPE_CASE, AT(lock), .values = { "spin", "interlock" },
+    { "lock", FM_KEY_ENUM, FM_SCOPE_CASE, AT(lock), NAMES(lock_names),
       .fallback = "spin", .help = "of exclusive passes" },
-    { "release", FM_KEY_ENUM, FM_SCOPE_CASE, AT(release), .values = { "auto", "store", "exchange" },
+    { "release", FM_KEY_ENUM, FM_SCOPE_CASE, AT(release), NAMES(release_names),
       .fallback = "auto", .help = "of the spin lock" },
-    { "buffers", FM_KEY_ENUM, FM_SCOPE_CASE, AT(buffers), .values = { "auto", "bound", "address" },
+    { "buffers", FM_KEY_ENUM, FM_SCOPE_CASE, AT(buffers), NAMES(buffers_names),
       .fallback = "auto", .help = "how shaders reach them" },
-    { "pool", FM_KEY_ENUM, FM_SCOPE_CASE, AT(pool), .values = { "preallocated", "per-frame" },
+    { "pool", FM_KEY_ENUM, FM_SCOPE_CASE, AT(pool), NAMES(pool_names),
       .fallback = "preallocated", .help = "when buffers are allocated" },
     { "full_screen", FM_KEY_ENUM, FM_SCOPE_CASE, AT(full_screen),
-      .values = { "compute", "fragment" }, .fallback = "compute", .help = "passes over pixels" },
-    { "timers", FM_KEY_ENUM, QUIET, AT(timers), .values = { "passes", "frame" }, .fallback = "passes",
+      NAMES(full_screen_names), .fallback = "compute", .help = "passes over pixels" },
+    { "timers", FM_KEY_ENUM, QUIET, AT(timers), NAMES(timers_names), .fallback = "passes",
       .help = "frame: one for all passes, none has a time, times_floor is of frames" },
-    { "culling", FM_KEY_ENUM, QUIET, AT(culling), .values = { "none", "occupancy" },
+    { "culling", FM_KEY_ENUM, QUIET, AT(culling), NAMES(culling_names),
       .fallback = "none", .help = "by an occupancy map, before the method's own passes" },
     { "cull_words", FM_KEY_UINT, QUIET, .with = "culling", AT(cull_words), .low = 1, .high = 64, .fallback = "32",
       .help = "d, words of the map a pixel: 32 d buckets, at least k" },
-    { "cull_range", FM_KEY_ENUM, QUIET, .with = "culling", AT(cull_range), .values = { "hull", "aabb", "exact" },
+    { "cull_range", FM_KEY_ENUM, QUIET, .with = "culling", AT(cull_range), NAMES(cull_range_names),
       .fallback = "hull", .help = "the map's depths: of the hull, the box, the scene" },
-    { "cull_test", FM_KEY_ENUM, QUIET, .with = "culling", AT(cull_test), .values = { "early", "shader" },
+    { "cull_test", FM_KEY_ENUM, QUIET, .with = "culling", AT(cull_test), NAMES(cull_test_names),
       .fallback = "early", .help = "before the shader where a pass can, or in it" },
-    { "cull_memory", FM_KEY_ENUM, QUIET, .with = "culling", AT(cull_memory), .values = { "own", "shared" },
+    { "cull_memory", FM_KEY_ENUM, QUIET, .with = "culling", AT(cull_memory), NAMES(cull_memory_names),
       .fallback = "own", .help = "the map lies in the method's largest fixed buffer" },
-    { "own_cull", FM_KEY_ENUM, QUIET, AT(own_cull), .values = { "on", "off" },
+    { "own_cull", FM_KEY_ENUM, QUIET, AT(own_cull), NAMES(own_cull_names),
       .fallback = "on", .help = "the method's own test before its lock" },
     { "model", FM_KEY_TEXT, FM_SCOPE_CASE, AT(model), .fallback = "",
       .help = "of the simulated GPU: \"NAME=VALUE ...\", names as in its parameters.yml" },
@@ -183,8 +272,8 @@ static void enum_domain(char text[FM_TEXT_MAX], const fm_key *key)
 {
     size_t length = 0;
     text[0] = '\0';
-    for (size_t i = 0; i < sizeof key->values / sizeof key->values[0]; i++)
-        if (key->values[i] != NULL && length < FM_TEXT_MAX)
+    for (size_t i = 0; i < key->value_count; i++)
+        if (length < FM_TEXT_MAX)
             length += (size_t)snprintf(text + length, FM_TEXT_MAX - length, "%s%s",
                                        i > 0 ? "|" : "", key->values[i]);
 }

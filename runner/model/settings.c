@@ -90,8 +90,7 @@ static fm_status set_vector(fm_settings *settings, const fm_key *key, const char
 
 static fm_status set_enum(fm_settings *settings, const fm_key *key, const char *text, fm_error *err)
 {
-    const unsigned room = sizeof key->values / sizeof key->values[0];
-    for (unsigned i = 0; i < room && key->values[i] != NULL; i++) {
+    for (unsigned i = 0; i < key->value_count; i++) {
         if (strcmp(key->values[i], text) == 0) {
             memcpy(field(settings, key), &i, sizeof i);
             return FM_OK;

@@ -30,6 +30,7 @@ typedef enum fm_generator {
     FM_GENERATOR_FRAMES,      /* a sequence of draw calls, for the simulated GPU */
     FM_GENERATOR_STREAM,      /* the same, recorded: a file */
     FM_GENERATOR_ADVERSARIAL, /* the same, random, to break techniques */
+    FM_GENERATOR_COUNT
 } fm_generator;
 
 /* Generators of sequences, for feed `frames`: bit g, generator g. */
@@ -42,6 +43,7 @@ typedef enum fm_order {
     FM_ORDER_ASCENDING,   /* nearest first */
     FM_ORDER_DESCENDING,
     FM_ORDER_CELL_MAJOR, /* all layers of a cell drawn consecutively, in one random order */
+    FM_ORDER_COUNT
 } fm_order;
 
 typedef enum fm_depths {
@@ -60,32 +62,57 @@ typedef enum fm_colours {
     FM_COLOURS_HASH,  /* a different colour for each layer */
     FM_COLOURS_CYCLE, /* eight colours in turn, as k+-buffer's scenes */
     FM_COLOURS_GREY,
+    FM_COLOURS_COUNT
 } fm_colours;
 
 typedef enum fm_alphas {
     FM_ALPHAS_CONSTANT, /* `alpha` for each fragment */
     FM_ALPHAS_RANDOM,   /* uniform in (0, alpha] by layer */
+    FM_ALPHAS_COUNT
 } fm_alphas;
 
-typedef enum fm_lock { FM_LOCK_SPIN, FM_LOCK_INTERLOCK } fm_lock;
+typedef enum fm_lock { FM_LOCK_SPIN, FM_LOCK_INTERLOCK, FM_LOCK_COUNT } fm_lock;
 /* How a spin lock is let go: by what the device needs, a plain store, or an atomic exchange. */
-typedef enum fm_release { FM_RELEASE_AUTO, FM_RELEASE_STORE, FM_RELEASE_EXCHANGE } fm_release;
-typedef enum fm_buffers { FM_BUFFERS_AUTO, FM_BUFFERS_BOUND, FM_BUFFERS_ADDRESS } fm_buffers;
-typedef enum fm_pool { FM_POOL_PREALLOCATED, FM_POOL_PER_FRAME } fm_pool;
-typedef enum fm_full_screen { FM_FULL_SCREEN_COMPUTE, FM_FULL_SCREEN_FRAGMENT } fm_full_screen;
+typedef enum fm_release {
+    FM_RELEASE_AUTO,
+    FM_RELEASE_STORE,
+    FM_RELEASE_EXCHANGE,
+    FM_RELEASE_COUNT
+} fm_release;
+typedef enum fm_buffers {
+    FM_BUFFERS_AUTO,
+    FM_BUFFERS_BOUND,
+    FM_BUFFERS_ADDRESS,
+    FM_BUFFERS_COUNT
+} fm_buffers;
+typedef enum fm_pool { FM_POOL_PREALLOCATED, FM_POOL_PER_FRAME, FM_POOL_COUNT } fm_pool;
+typedef enum fm_full_screen {
+    FM_FULL_SCREEN_COMPUTE,
+    FM_FULL_SCREEN_FRAGMENT,
+    FM_FULL_SCREEN_COUNT
+} fm_full_screen;
 /* What has a timer: each pass, or all of them one. */
-typedef enum fm_timers { FM_TIMERS_PASSES, FM_TIMERS_FRAME } fm_timers;
+typedef enum fm_timers { FM_TIMERS_PASSES, FM_TIMERS_FRAME, FM_TIMERS_COUNT } fm_timers;
 
 /* Occupancy-map culling: culling.h. */
-typedef enum fm_culling { FM_CULLING_NONE, FM_CULLING_OCCUPANCY } fm_culling;
+typedef enum fm_culling { FM_CULLING_NONE, FM_CULLING_OCCUPANCY, FM_CULLING_COUNT } fm_culling;
 typedef enum fm_cull_range {
     FM_CULL_RANGE_HULL,
     FM_CULL_RANGE_AABB,
     FM_CULL_RANGE_EXACT,
+    FM_CULL_RANGE_COUNT
 } fm_cull_range;
-typedef enum fm_cull_test { FM_CULL_TEST_EARLY, FM_CULL_TEST_SHADER } fm_cull_test;
-typedef enum fm_cull_memory { FM_CULL_MEMORY_OWN, FM_CULL_MEMORY_SHARED } fm_cull_memory;
-typedef enum fm_own_cull { FM_OWN_CULL_ON, FM_OWN_CULL_OFF } fm_own_cull;
+typedef enum fm_cull_test {
+    FM_CULL_TEST_EARLY,
+    FM_CULL_TEST_SHADER,
+    FM_CULL_TEST_COUNT
+} fm_cull_test;
+typedef enum fm_cull_memory {
+    FM_CULL_MEMORY_OWN,
+    FM_CULL_MEMORY_SHARED,
+    FM_CULL_MEMORY_COUNT
+} fm_cull_memory;
+typedef enum fm_own_cull { FM_OWN_CULL_ON, FM_OWN_CULL_OFF, FM_OWN_CULL_COUNT } fm_own_cull;
 
 enum { FM_TEXT_MAX = 256 };
 #define FM_NOT_GIVEN UINT32_MAX
@@ -169,14 +196,15 @@ typedef struct fm_key {
     const char *name; /* the column of summary.csv where there is one */
     fm_key_type type;
     fm_key_scope scope;
-    size_t offset;          /* in fm_settings */
-    double low, high;       /* numbers: inclusive range */
-    const char *fallback;   /* default, as text */
-    const char *values[12]; /* enums */
-    const char *unit;       /* "px", "" */
-    const char *help;       /* one line */
-    uint32_t generators;    /* scene keys: bit g: generator g reads it; 0: all do */
-    bool optional;          /* FM_KEY_UINT: "none" is a value too, kept as `absent` */
+    size_t offset;             /* in fm_settings */
+    double low, high;          /* numbers: inclusive range */
+    const char *fallback;      /* default, as text */
+    const char *const *values; /* enums: [value_count] names, by enumerator */
+    size_t value_count;
+    const char *unit;    /* "px", "" */
+    const char *help;    /* one line */
+    uint32_t generators; /* scene keys: bit g: generator g reads it; 0: all do */
+    bool optional;       /* FM_KEY_UINT: "none" is a value too, kept as `absent` */
     uint32_t absent;
     const char *with; /* case keys: changes nothing while this other key is at its default */
     bool is_quiet;    /* case keys: at its default it is not part of a case's id, which so stays

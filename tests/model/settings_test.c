@@ -334,9 +334,24 @@ static void scene_files_of_the_project_are_legal(void **state)
     scene_names_free(&names);
 }
 
+static void keys_of_enums_have_a_distinct_name_for_each_value(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < fm_key_count; i++) {
+        const fm_key *key = &fm_keys[i];
+        assert_int_equal(key->type == FM_KEY_ENUM, key->value_count > 0);
+        for (size_t v = 0; v < key->value_count; v++) {
+            assert_non_null(key->values[v]);
+            for (size_t w = 0; w < v; w++)
+                assert_string_not_equal(key->values[v], key->values[w]);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(keys_of_enums_have_a_distinct_name_for_each_value),
         cmocka_unit_test(settings_defaults_are_the_synthetic_scene),
         cmocka_unit_test(keys_have_defaults_that_are_legal),
         cmocka_unit_test(key_nearest_corrects_spelling),
