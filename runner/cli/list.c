@@ -3,6 +3,7 @@
 #include "cli.h"
 #include "device/device.h"
 #include "list_markdown.h"
+#include "list_metrics.h"
 #include "model/feeds.h"
 #include "parent/manifest.h"
 #include "scene/scene_file.h"
@@ -19,7 +20,7 @@ typedef struct list_arguments {
 
 static const struct argp_option options[] = {
     { "json", KEY_JSON, NULL, 0, "as JSON", 0 },
-    { "markdown", KEY_MARKDOWN, NULL, 0, "methods as the table of methods/README.md", 0 },
+    { "markdown", KEY_MARKDOWN, NULL, 0, "methods, or metrics, as the table of a document", 0 },
     { "plugin-dir", KEY_PLUGINS, "DIR", 0, "look for methods here first; repeatable", 0 },
     CLI_HELP_OPTION,
     { 0 },
@@ -162,14 +163,23 @@ static int list_figures(const list_arguments *arguments)
     return CLI_DONE;
 }
 
+static int list_metrics(const list_arguments *arguments)
+{
+    if (arguments->json)
+        return cli_print_json(arguments->cli, list_metrics_json());
+    if (arguments->markdown)
+        list_metrics_markdown(arguments->cli->out);
+    else
+        list_metrics_text(arguments->cli->out);
+    return CLI_DONE;
+}
+
 static const struct {
     const char *name;
     int (*list)(const list_arguments *);
 } lists[] = {
-    { "methods", list_methods },
-    { "scenes", list_scenes },
-    { "devices", list_devices },
-    { "figures", list_figures },
+    { "methods", list_methods }, { "scenes", list_scenes },   { "devices", list_devices },
+    { "figures", list_figures }, { "metrics", list_metrics },
 };
 enum { LIST_COUNT = sizeof lists / sizeof lists[0] };
 
@@ -185,7 +195,7 @@ static void require_known(struct argp_state *state, const char *what)
     if (nearest != NULL)
         argp_error(state, "nothing called '%s' to list; the nearest is '%s'", what, nearest);
     else
-        argp_error(state, "list what? methods, scenes, devices or figures");
+        argp_error(state, "list what? methods, scenes, devices, figures or metrics");
 }
 
 static error_t parse(int key, char *text, struct argp_state *state)
@@ -215,8 +225,9 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case ARGP_KEY_END:
         if (arguments->what == NULL)
             require_known(state, NULL);
-        if (arguments->markdown && (arguments->json || strcmp(arguments->what, "methods") != 0))
-            argp_error(state, "--markdown is for methods, and without --json");
+        if (arguments->markdown && (arguments->json || (strcmp(arguments->what, "methods") != 0 &&
+                                                        strcmp(arguments->what, "metrics") != 0)))
+            argp_error(state, "--markdown is for methods and metrics, and without --json");
         return 0;
     default:
         return ARGP_ERR_UNKNOWN;
@@ -226,12 +237,13 @@ static error_t parse(int key, char *text, struct argp_state *state)
 static const struct argp argp = {
     .options = options,
     .parser = parse,
-    .args_doc = "methods|scenes|devices|figures",
+    .args_doc = "methods|scenes|devices|figures|metrics",
     .doc = "Lists what there is to choose from."
            "\v"
            "Examples:\n"
            "  fragmark list methods\n"
            "  fragmark list devices --json\n"
+           "  fragmark list metrics\n"
            "\n" CLI_EXIT_CODES,
 };
 
