@@ -5,7 +5,7 @@
 #define FM_INSTANCE_H
 
 #include "model/descriptor.h"
-#include "stage.h"
+#include "stage/stage.h"
 
 typedef struct fm_instance fm_instance;
 

@@ -1,11 +1,13 @@
-/* Truth: every fragment of every pixel, as this device rasterises the scene; sorted by depth, then
- * arrival; kept in a file that workers map. */
+/* Truth: every fragment of every pixel, sorted by depth, then arrival; kept in a file that workers
+ * map.
+ *
+ * This room holds what truth is and how captured fragments are held against it. It knows no device:
+ * how a device's fragments become a truth is capture/'s. */
 #ifndef FM_TRUTH_H
 #define FM_TRUTH_H
 
 #include "base/error.h"
 #include "base/image.h"
-#include "device/device.h"
 #include "scene/scene.h"
 
 typedef struct fm_truth {
@@ -21,14 +23,8 @@ typedef struct fm_truth {
     uint64_t map_bytes;
 } fm_truth;
 
-/* Captures the scene (count, prefix sum, store in bands of pixels), sorts it and writes it to path,
- * atomically. A band is what is held in memory. feed: one of FM_FEED_*. FM_FEED_TRIANGLES: as
- * rasterise.h says, whatever the device; the scene is held. Else as the device's rasteriser
- * delivers it; of flat layers without ties it counts all and stores the first band, and while these
- * agree with the closed form, that fills the bands that follow. common_folder: the runner's GLSL.
- */
-fm_status truth_capture(const char *path, fm_device *device, const fm_scene *scene, uint32_t feed,
-                        const char *common_folder, fm_error *err);
+/* Maps a file that truth_capture wrote. FM_IO: it cannot be read, or is no truth. truth_close also
+ * of NULL. */
 fm_status truth_open(fm_truth **truth, const char *path, fm_error *err);
 void truth_close(fm_truth *truth);
 

@@ -1,17 +1,11 @@
-#include "measure.h"
+#include "measure_internal.h"
 
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "plugin/culling_apply.h"
-
-/* Of how many checked pixels the truth stays in memory. */
-enum { FORGET_PIXELS = 4096 };
-enum { SLOTS_SPARE = 4, LONG_FRAME_SAMPLES = 2, LOSSY_FRAMES = 16 };
-/* Captured fragments of one band: below every device's bound range. */
-#define BAND_BYTES (64ull << 20)
+enum { LONG_FRAME_SAMPLES = 2, LOSSY_FRAMES = 16 };
 
 uint32_t measure_wanted(const fm_method_desc *method, uint32_t k)
 {
@@ -52,10 +46,8 @@ static uint64_t store_time(const fm_frame_result *frame, const fm_method_desc *m
     return sum;
 }
 
-/* A frame in which a lock was given up is counted and run again. What is lost every time is the
- * method's own loss. */
-static fm_status frame_again_if_lossy(fm_frame_result *result, fm_measurement *measurement,
-                                      fm_instance *instance, const fm_band *band, fm_error *err)
+fm_status measure_frame(fm_frame_result *result, fm_measurement *measurement, fm_instance *instance,
+                        const fm_band *band, fm_error *err)
 {
     const int tries = instance_may_give_up(instance) ? LOSSY_FRAMES : 1;
     fm_status status = FM_OK;
@@ -80,7 +72,7 @@ static fm_status sample_method(fm_sample *sample, fm_measurement *measurement,
                                const launch_pair *pair, fm_error *err)
 {
     fm_frame_result result;
-    fm_status status = frame_again_if_lossy(&result, measurement, pair->method, NULL, err);
+    fm_status status = measure_frame(&result, measurement, pair->method, NULL, err);
     memcpy(sample->pass_ns, result.pass_ns, sizeof sample->pass_ns);
     sample->frame_ns = frame_passes_ns(&result);
     sample->wall_ns = result.wall_ns;
@@ -162,15 +154,15 @@ static fm_status take_k(fm_measurement *measurement, const fm_instance *instance
     return FM_OK;
 }
 
-static uint32_t wanted_of(const fm_measurement *measurement, const fm_measure_desc *desc)
+uint32_t measure_k(const fm_measurement *measurement, const fm_measure_desc *desc)
 {
     return measurement->k_chosen > 0
                ? measurement->k_chosen
                : measure_wanted(desc->method->method, desc->method->settings->k);
 }
 
-static void take_bytes(fm_measurement *measurement, const fm_instance *instance,
-                       const fm_measure_desc *desc)
+void measure_bytes(fm_measurement *measurement, const fm_instance *instance,
+                   const fm_measure_desc *desc)
 {
     const uint64_t kept = measurement->k_chosen > 0 ? truth_kept(desc->truth, measurement->k_chosen)
                                                     : desc->method->fragments_kept;
@@ -196,182 +188,12 @@ static fm_status measure_times(fm_measurement *measurement, const fm_measure_des
     if (status == FM_OK)
         status = take_k(measurement, method, desc->method, err);
     if (status == FM_OK)
-        take_bytes(measurement, method, desc);
+        measure_bytes(measurement, method, desc);
     /* What destroying it gives back: the floor may have grown beside it. */
     const uint64_t with_method = ledger->bytes[FM_OWNER_METHOD];
     instance_destroy(method);
     measurement->bytes_allocated = with_method - ledger->bytes[FM_OWNER_METHOD];
     instance_destroy(floor);
-    return status;
-}
-
-/* ---- check ---- */
-
-typedef struct checking {
-    fm_measurement *measurement;
-    const fm_truth *truth;
-    fm_stage *stage;
-    uint32_t wanted;
-    uint32_t slots;
-    uint32_t band_pixels;
-    fm_fragment *fragments; /* [band_pixels][slots], as captured */
-    uint32_t (*counts)[2];  /* [band_pixels]: from the front, from the back */
-    fm_fragment *pixel;     /* [slots]: one pixel's, in order */
-} checking;
-
-/* Front ranks fill a pixel's slots from the start, back ranks from the end. */
-static uint32_t gather(checking *check, uint32_t local)
-{
-    const fm_fragment *row = &check->fragments[(uint64_t)local * check->slots];
-    const uint32_t front = check->counts[local][0], back = check->counts[local][1];
-    if ((uint64_t)front + back > check->slots) { /* more than anybody could want */
-        check->measurement->check.extra += (uint64_t)front + back - check->slots;
-        memcpy(check->pixel, row, check->slots * sizeof *row);
-        return check->slots;
-    }
-    memcpy(check->pixel, row, front * sizeof *row);
-    memcpy(check->pixel + front, row + check->slots - back, back * sizeof *row);
-    return front + back;
-}
-
-static void check_image(checking *check, uint64_t pixel, uint32_t count)
-{
-    double rgba[4];
-    const float *timed = &check->measurement->image->rgba[4 * pixel];
-    composite_pixel(rgba, check->pixel, count);
-    for (int channel = 0; channel < 4; channel++) {
-        const double apart = fabs(rgba[channel] - (double)timed[channel]);
-        if (!(apart <= check->measurement->self_max_abs))
-            check->measurement->self_max_abs = apart;
-    }
-}
-
-/* Fragments of equal depth and different colour among the first `wanted`, or at their end: which
- * comes first, or at all, is open, and the timed frame may choose otherwise than the captured one.
- */
-static bool has_open_tie(const fm_fragment *truth, uint32_t count, uint32_t wanted)
-{
-    for (uint32_t i = 1; i < count && i <= wanted; i++)
-        if (truth[i].depth <= truth[i - 1].depth && truth[i].colour != truth[i - 1].colour)
-            return true;
-    return false;
-}
-
-static fm_status check_band(checking *check, const fm_band *band, fm_error *err)
-{
-    const fm_device_ops *ops = check->stage->device->ops;
-    fm_slot *slots = check->stage->slots;
-    fm_status status =
-        ops->buffer_read(check->stage->device, slots[STAGE_CAPTURE].buffer, 0, check->fragments,
-                         (uint64_t)band->pixels * check->slots * sizeof(fm_fragment), err);
-    if (status == FM_OK)
-        status = ops->buffer_read(check->stage->device, slots[STAGE_CAPTURE_COUNTS].buffer, 0,
-                                  check->counts, (uint64_t)band->pixels * 8, err);
-    for (uint32_t i = 0; i < band->pixels && status == FM_OK; i++) {
-        const uint64_t pixel = (uint64_t)band->first + i;
-        const uint64_t first = check->truth->offsets[pixel];
-        const uint32_t all = (uint32_t)(check->truth->offsets[pixel + 1] - first);
-        const uint32_t count = gather(check, i);
-        const fm_fragment *truth = &check->truth->fragments[first];
-        if (!has_open_tie(truth, all, check->wanted))
-            check_image(check, pixel, count);
-        check_pixel(&check->measurement->check, check->pixel, count, truth, all,
-                    check->wanted < all ? check->wanted : all);
-        if (i % FORGET_PIXELS == FORGET_PIXELS - 1 || i + 1 == band->pixels)
-            truth_forget(check->truth, pixel - i % FORGET_PIXELS, pixel + 1);
-    }
-    return status;
-}
-
-static fm_status check_bands(checking *check, fm_instance *instance, fm_error *err)
-{
-    const uint64_t pixels = (uint64_t)check->truth->width_px * check->truth->height_px;
-    fm_status status = FM_OK;
-    for (uint64_t first = 0; first < pixels && status == FM_OK; first += check->band_pixels) {
-        const uint64_t left = pixels - first;
-        const fm_band band = { (uint32_t)first,
-                               left < check->band_pixels ? (uint32_t)left : check->band_pixels };
-        fm_frame_result result;
-        if (first > 0 && instance_can_emit_again(instance)) {
-            status = instance_emit(instance, &band, err);
-        } else {
-            status = frame_again_if_lossy(&result, check->measurement, instance, &band, err);
-            if (result.lost > check->measurement->lost)
-                check->measurement->lost = result.lost;
-            check->measurement->culled = result.culled;
-            check->measurement->locked = result.locked;
-            check->measurement->arrived = result.arrived;
-        }
-        if (status == FM_OK)
-            status = check_band(check, &band, err);
-    }
-    return status;
-}
-
-static fm_status create_checking(checking *check, const fm_measure_desc *desc, fm_error *err)
-{
-    const fm_truth *truth = desc->truth;
-    const uint64_t pixels = (uint64_t)truth->width_px * truth->height_px;
-    const uint32_t most = check->wanted < truth->n ? check->wanted : truth->n;
-    check->slots = most + SLOTS_SPARE;
-    const uint64_t fit = BAND_BYTES / (check->slots * sizeof(fm_fragment));
-    check->band_pixels = (uint32_t)(fit < 1 ? 1 : fit > pixels ? pixels : fit);
-    check->fragments = malloc((uint64_t)check->band_pixels * check->slots * sizeof(fm_fragment));
-    check->counts = malloc(check->band_pixels * sizeof check->counts[0]);
-    check->pixel = malloc(check->slots * sizeof check->pixel[0]);
-    if (check->fragments == NULL || check->counts == NULL || check->pixel == NULL)
-        return fm_fail(err, FM_NO_MEMORY, "checking %u fragments a pixel", check->slots);
-    return stage_create_capture(check->stage, check->band_pixels, check->slots, err);
-}
-
-static fm_status check_fragments(fm_measurement *measurement, const fm_measure_desc *desc,
-                                 fm_error *err)
-{
-    checking check = { .measurement = measurement,
-                       .truth = desc->truth,
-                       .stage = desc->method->stage,
-                       .wanted = wanted_of(measurement, desc) };
-    fm_instance_desc capture = *desc->method;
-    fm_instance *instance = NULL;
-    fm_status status = create_checking(&check, desc, err);
-    capture.is_capture = true;
-    capture.capture_slots = check.slots;
-    if (status == FM_OK)
-        status = instance_create(&instance, &capture, err);
-    if (status == FM_OK)
-        status = check_bands(&check, instance, err);
-    if (status == FM_OK && culling_is_applied(desc->method->method)) {
-        instance_tell_fragments(instance, measurement->arrived); /* pools are sized by these */
-        take_bytes(measurement, instance, desc);
-    }
-    measurement->is_checked = status == FM_OK;
-    instance_destroy(instance);
-    free(check.fragments);
-    free(check.counts);
-    free(check.pixel);
-    return status;
-}
-
-static fm_status check_images(fm_measurement *measurement, const fm_measure_desc *desc,
-                              fm_error *err)
-{
-    const uint32_t wanted = wanted_of(measurement, desc);
-    fm_image *all = NULL;
-    fm_image_error apart;
-    fm_status status = truth_composite(&measurement->truth_image, desc->truth,
-                                       wanted == UINT32_MAX ? 0 : wanted, err);
-    if (status == FM_OK)
-        status = truth_composite(&all, desc->truth, 0, err);
-    if (status == FM_OK)
-        status =
-            image_compare(&measurement->error, measurement->image, measurement->truth_image, err);
-    if (status == FM_OK)
-        status = image_compare(&apart, measurement->truth_image, all, err);
-    measurement->truncation_rmse = status == FM_OK ? apart.rmse : NAN;
-    if (status == FM_OK)
-        status = image_compare(&apart, measurement->image, all, err);
-    measurement->total_rmse = status == FM_OK ? apart.rmse : NAN;
-    image_destroy(all);
     return status;
 }
 
@@ -383,9 +205,9 @@ fm_status measure_case(fm_measurement *measurement, const fm_measure_desc *desc,
         return fm_fail(err, FM_NO_MEMORY, "%u samples", desc->frames);
     fm_status status = measure_times(measurement, desc, err);
     if (status == FM_OK && desc->check)
-        status = check_fragments(measurement, desc, err);
+        status = measure_check_fragments(measurement, desc, err);
     if (status == FM_OK && desc->check)
-        status = check_images(measurement, desc, err);
+        status = measure_check_images(measurement, desc, err);
     return status;
 }
 

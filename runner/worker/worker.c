@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "answer.h"
+#include "capture/truth_capture.h"
 #include "device/device.h"
 #include "generators/generate.h"
 #include "measure.h"

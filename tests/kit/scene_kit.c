@@ -1,4 +1,5 @@
 #include "scene_kit.h"
+#include "capture/truth_capture.h"
 
 #include <math.h>
 #include <stdio.h>

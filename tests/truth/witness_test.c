@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <unistd.h>
 
+#include "capture/truth_capture.h"
 #include "generators/generate.h"
 #include "kit/scene_kit.h"
 

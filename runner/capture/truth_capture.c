@@ -1,6 +1,6 @@
 /* Capturing truth: two passes over the fragments (count, store), in bands of pixels; on the device
  * by raster passes of the runner's own, on the host for the feed `triangles`. */
-#include "truth.h"
+#include "truth_capture.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -10,8 +10,8 @@
 
 #include "instance/instance.h"
 #include "scene/layers.h"
-#include "truth_file.h"
-#include "truth_triangles.h"
+#include "truth/truth_file.h"
+#include "truth/truth_triangles.h"
 
 /* Records of one band: 128 MiB, what the smallest device binds in one buffer. */
 enum { BAND_RECORDS = 8 << 20 };
