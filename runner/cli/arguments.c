@@ -218,47 +218,6 @@ void arguments_free(fm_arguments *arguments)
         names_free(lists[i]);
 }
 
-static uint32_t larger(uint32_t a, uint32_t b)
-{
-    return a > b ? a : b;
-}
-
-static fm_settings *find_case(const fm_plan *plan, const char *id)
-{
-    for (size_t i = 0; i < plan->count; i++)
-        if (strcmp(plan->cases[i].id, id) == 0)
-            return &plan->cases[i].settings;
-    return NULL;
-}
-
-/* A case that several specs want is measured as often as any of them wants it. */
-static void take_most(fm_settings *settings, const fm_settings *more)
-{
-    settings->launches = larger(settings->launches, more->launches);
-    settings->frames = larger(settings->frames, more->frames);
-    settings->warmup = larger(settings->warmup, more->warmup);
-}
-
-static fm_status merge(fm_plan *plan, const fm_plan *more, fm_error *err)
-{
-    fm_case *grown = reallocarray(plan->cases, plan->count + more->count + 1, sizeof *grown);
-    if (grown == NULL)
-        return fm_fail(err, FM_NO_MEMORY, "no memory for %zu cases", plan->count + more->count);
-    plan->cases = grown;
-    for (size_t i = 0; i < more->count; i++) {
-        fm_settings *found = find_case(plan, more->cases[i].id);
-        if (found != NULL)
-            take_most(found, &more->cases[i].settings);
-        else
-            plan->cases[plan->count++] = more->cases[i];
-    }
-    plan->seed = more->seed;
-    plan->launches = larger(plan->launches, more->launches);
-    plan->frames = larger(plan->frames, more->frames);
-    plan->warmup = larger(plan->warmup, more->warmup);
-    return FM_OK;
-}
-
 fm_status arguments_expand(fm_plan *plan, const fm_plugin_list *plugins,
                            const fm_arguments *arguments, const char *spec, fm_error *err)
 {
@@ -282,7 +241,7 @@ fm_status arguments_plan(fm_plan *plan, fm_plugin_list *plugins, const fm_argume
         fm_plan one = { 0 };
         status = arguments_expand(&one, plugins, arguments, specs[i], err);
         if (status == FM_OK)
-            status = merge(plan, &one, err);
+            status = plan_merge(plan, &one, err);
         plan_free(&one);
         if (specs[i] == NULL)
             break;

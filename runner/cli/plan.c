@@ -54,7 +54,7 @@ double plan_seconds(const fm_plan *plan)
 {
     double seconds = 0.0;
     for (size_t i = 0; i < plan->count; i++) {
-        if (plan->cases[i].skip[0] != '\0')
+        if (plan->cases[i].skip != NULL)
             continue;
         const fm_settings *settings = &plan->cases[i].settings;
         const double fragments = guessed_fragments(settings);
@@ -91,8 +91,9 @@ static void write_case(FILE *out, const fm_case *of, const bool *is_told)
     }
     for (size_t i = 0; i < of->choice_count; i++)
         fprintf(out, "  %s=%s", of->choices[i].name, of->choices[i].value);
-    if (of->skip[0] != '\0')
-        fprintf(out, "  (not run: %s)", of->skip);
+    if (of->skip != NULL)
+        fprintf(out, "  (not run: %s%s)",
+                of->skip_status == FM_CASE_PLUGIN_ERROR ? "refused: " : "", of->skip);
     fputc('\n', out);
 }
 
@@ -106,7 +107,7 @@ static int write_table(const fm_cli *cli, const fm_plan *plan)
     for (size_t i = 0; i < fm_key_count && plan->count > 0; i++)
         is_told[i] = varies(plan, &fm_keys[i]);
     for (size_t i = 0; i < plan->count; i++) {
-        runnable += plan->cases[i].skip[0] == '\0';
+        runnable += plan->cases[i].skip == NULL;
         write_case(cli->out, &plan->cases[i], is_told);
     }
     free(is_told);
@@ -131,9 +132,11 @@ static json_t *case_json(const fm_case *of)
     }
     for (size_t i = 0; i < of->choice_count; i++)
         json_object_set_new(chosen, of->choices[i].name, json_string(of->choices[i].value));
-    return json_pack("{s:s, s:s, s:s, s:s, s:s, s:o, s:o, s:s}", "case_id", of->id, "method",
+    return json_pack("{s:s, s:s, s:s, s:s, s:s, s:o, s:o, s:s, s:s?}", "case_id", of->id, "method",
                      of->method, "scene", of->scene, "device", of->device, "feed", of->feed,
-                     "settings", settings, "options", chosen, "skip", of->skip);
+                     "settings", settings, "options", chosen, "skip",
+                     of->skip != NULL ? of->skip : "", "skip_status",
+                     of->skip != NULL ? case_status_name(of->skip_status) : NULL);
 }
 
 static int write_json(const fm_cli *cli, const fm_plan *plan)

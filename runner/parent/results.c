@@ -27,15 +27,6 @@ static fm_status append(const fm_results *results, const fm_text *text, fm_error
     return FM_OK;
 }
 
-static void mark_refused(fm_case_result *result, const fm_case *of)
-{
-    static const char refused[] = "plugin_error: ";
-    const size_t length = sizeof refused - 1;
-    const bool is_plugin = strncmp(of->skip, refused, length) == 0;
-    result->status = is_plugin ? FM_CASE_PLUGIN_ERROR : FM_CASE_NOT_SUPPORTED;
-    snprintf(result->message, sizeof result->message, "%s", of->skip + (is_plugin ? length : 0));
-}
-
 static fm_status create_cases(fm_results *results, fm_error *err)
 {
     const fm_plan *plan = results->plan;
@@ -46,11 +37,11 @@ static fm_status create_cases(fm_results *results, fm_error *err)
         results->cases[i].launches = calloc(plan->launches, sizeof(fm_launch_state));
         if (results->cases[i].launches == NULL)
             return fm_fail(err, FM_NO_MEMORY, "no memory for %u launches", plan->launches);
-        if (plan->cases[i].skip[0] != '\0')
-            mark_refused(&results->cases[i], &plan->cases[i]);
-        else
-            snprintf(results->cases[i].message, sizeof results->cases[i].message,
-                     "the run was stopped before its turn");
+        const fm_case *planned = &plan->cases[i];
+        if (planned->skip != NULL)
+            results->cases[i].status = planned->skip_status;
+        snprintf(results->cases[i].message, sizeof results->cases[i].message, "%s",
+                 planned->skip != NULL ? planned->skip : "the run was stopped before its turn");
     }
     return FM_OK;
 }

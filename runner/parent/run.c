@@ -123,7 +123,7 @@ static fm_status run_round(run_state *run, uint32_t launch, fm_error *err)
             continue;
         if (run_is_pending(run, index) && !run->results->cases[index].launches[launch].is_done)
             status = run_measure(run, index, launch, err);
-        else if (run->plan->cases[index].skip[0] == '\0' &&
+        else if (run->plan->cases[index].skip == NULL &&
                  !run->results->cases[index].launches[launch].is_done)
             run->progress.done++; /* its case failed before */
     }
@@ -143,7 +143,7 @@ static void count_launches(run_state *run)
     for (size_t i = 0; i < run->truths.count; i++)
         run->progress.total += truth_is_wanted(run, i);
     for (size_t i = 0; i < run->plan->count; i++) {
-        if (run->plan->cases[i].skip[0] != '\0')
+        if (run->plan->cases[i].skip != NULL)
             continue;
         run->progress.total += plan_case_launches(run->plan, i);
         run->progress.done += run->results->cases[i].done;

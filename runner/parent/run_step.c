@@ -10,7 +10,7 @@ enum { TIMEOUT_DEFAULT_S = 600 };
 
 bool run_is_pending(const run_state *run, size_t case_index)
 {
-    return run->plan->cases[case_index].skip[0] == '\0' &&
+    return run->plan->cases[case_index].skip == NULL &&
            !results_is_finished(run->results, case_index);
 }
 

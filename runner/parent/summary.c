@@ -110,7 +110,7 @@ static bool is_told(const fm_case *measured, size_t index, const fm_settings *de
     const fm_generator generator = measured->settings.generator;
     const bool is_scenes = key->scope == FM_SCOPE_SCENE && key_is_read(key, generator);
     const bool is_changed =
-        is_scenes && generator_makes_frames(generator) && measured->is_given[index];
+        is_scenes && generator_makes_frames(generator) && case_is_given(measured, key);
     const bool is_recipe = is_scenes && generator == FM_GENERATOR_LAYERS;
     if ((key->scope != FM_SCOPE_CASE && !is_recipe && !is_changed) ||
         summary_has_column(key->name) || strcmp(key->name, "generator") == 0)

@@ -27,7 +27,7 @@ static fm_status find_floor(fm_truth_job *job, const fm_case *of, const fm_plugi
     const fm_plugin *floor = NULL;
     if (job->floor == NULL)
         job->floor = "";
-    if (of->skip[0] != '\0' || job->floor[0] != '\0' ||
+    if (of->skip != NULL || job->floor[0] != '\0' ||
         !feed_info(feed_from_name(of->feed))->has_floor)
         return FM_OK;
     const fm_status status = plugin_list_floor(&floor, plugins, feed_from_name(of->feed), err);

@@ -74,10 +74,15 @@ static fm_status add_case(expansion *of, const fm_plan_point *point)
         of->cases = cases;
         of->capacity = capacity;
     }
-    const fm_status status = plan_case_make(&of->cases[of->count], point, of->err);
-    if (status == FM_OK && take_id(of, of->cases[of->count].id))
+    fm_case *made = &of->cases[of->count];
+    const fm_status status = plan_case_make(made, point, of->err);
+    if (status != FM_OK)
+        return status;
+    if (take_id(of, made->id))
         of->count++;
-    return status;
+    else
+        plan_case_release(made);
+    return FM_OK;
 }
 
 /* The next point, the last axis fastest; false: there is none. */
@@ -181,6 +186,8 @@ fm_status plan_expand(fm_plan *plan, const fm_plan_request *request, const fm_pl
         cap_launches(plan);
         of.cases = NULL;
     }
+    for (size_t i = 0; of.cases != NULL && i < of.count; i++)
+        plan_case_release(&of.cases[i]);
     free(of.ids);
     free(of.cases);
     chosen_destroy(&of.chosen);
@@ -195,6 +202,51 @@ uint32_t plan_case_launches(const fm_plan *plan, size_t index)
 
 void plan_free(fm_plan *plan)
 {
+    for (size_t i = 0; i < plan->count; i++)
+        plan_case_release(&plan->cases[i]);
     free(plan->cases);
     *plan = (fm_plan){ 0 };
+}
+
+static uint32_t larger(uint32_t a, uint32_t b)
+{
+    return a > b ? a : b;
+}
+
+static fm_settings *find_case(const fm_plan *plan, const char *id)
+{
+    for (size_t i = 0; i < plan->count; i++)
+        if (strcmp(plan->cases[i].id, id) == 0)
+            return &plan->cases[i].settings;
+    return NULL;
+}
+
+/* A case that several specs want is measured as often as any of them wants it. */
+static void take_most(fm_settings *settings, const fm_settings *more)
+{
+    settings->launches = larger(settings->launches, more->launches);
+    settings->frames = larger(settings->frames, more->frames);
+    settings->warmup = larger(settings->warmup, more->warmup);
+}
+
+fm_status plan_merge(fm_plan *plan, fm_plan *more, fm_error *err)
+{
+    fm_case *grown = reallocarray(plan->cases, plan->count + more->count + 1, sizeof *grown);
+    if (grown == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "no memory for %zu cases", plan->count + more->count);
+    plan->cases = grown;
+    for (size_t i = 0; i < more->count; i++) {
+        fm_settings *found = find_case(plan, more->cases[i].id);
+        if (found != NULL)
+            take_most(found, &more->cases[i].settings);
+        else {
+            plan->cases[plan->count++] = more->cases[i];
+            more->cases[i] = (fm_case){ 0 }; /* what it owned is the plan's now */
+        }
+    }
+    plan->seed = more->seed;
+    plan->launches = larger(plan->launches, more->launches);
+    plan->frames = larger(plan->frames, more->frames);
+    plan->warmup = larger(plan->warmup, more->warmup);
+    return FM_OK;
 }

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "model/descriptor.h"
+#include "model/outcome.h"
 #include "model/settings.h"
 #include "plugin/plugin.h"
 
@@ -20,14 +21,18 @@ typedef struct fm_case {
     char device[128]; /* "vulkan", "vulkan:1", "osmesa" */
     char feed[32];    /* "raster", "compute-layer", ... */
     fm_settings settings;
-    bool is_given[FM_MAX_KEYS]; /* by index in fm_keys: an axis sets it, not the scene */
-    fm_choice choices[FM_MAX_OPTIONS];
+    uint64_t given[FM_MAX_KEYS / 64]; /* bit i: an axis sets fm_keys[i], not the scene */
+    fm_choice *choices;               /* [choice_count]; owned by the plan; NULL: none */
     size_t choice_count;
-    char skip[512]; /* not empty: recorded as not_supported with this reason, never run
-                       (k above k_max, a feed or an option's value that the method does not
-                       have, a mesh that cannot be read), or "plugin_error: ..." */
-    bool no_image;  /* its picture is not kept; no part of its id */
+    char *skip;                 /* why it is not launched; owned by the plan; NULL: it is */
+    fm_case_status skip_status; /* what is then recorded: FM_CASE_NOT_SUPPORTED (k above k_max, a
+                                   feed or an option's value that the method does not have, a mesh
+                                   that cannot be read), or FM_CASE_PLUGIN_ERROR (it was refused) */
+    bool no_image;              /* its picture is not kept; no part of its id */
 } fm_case;
+
+/* Whether an axis sets the key. */
+bool case_is_given(const fm_case *of, const fm_key *key);
 
 /* Lists of texts, each ending with NULL. */
 typedef struct fm_plan_request {
@@ -59,9 +64,13 @@ enum { FM_PLAN_MAX_CASES = 100000 }; /* before equal ones become one */
  * Command line wins over the spec, the spec over the scene file, the scene file
  * over defaults. Cases that differ only in a key their method does not use (k of an A-buffer)
  * are one case. Unknown names: FM_INVALID with file, line and the nearest legal one. Refused
- * plugins become cases with skip = "plugin_error: ...". */
+ * plugins become cases that are not launched. */
 fm_status plan_expand(fm_plan *plan, const fm_plan_request *request, const fm_plugin_list *plugins,
                       fm_error *err);
+/* Takes the cases of another plan that this one does not have, and what they own; a case that both
+ * have is measured as often as either wants. What stays of `more` is still to be freed.
+ * FM_NO_MEMORY: nothing was taken. */
+fm_status plan_merge(fm_plan *plan, fm_plan *more, fm_error *err);
 void plan_free(fm_plan *plan);
 /* How often a case is launched: as often as the plan says, but once if it is simulated and nobody
  * asked for more, since all launches of it would say the same. */

@@ -1,6 +1,7 @@
 #include "plan_case.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <xxhash.h>
 
@@ -83,93 +84,117 @@ static fm_status make_settings(fm_settings *settings, const fm_plan_point *point
     return FM_OK;
 }
 
+bool case_is_given(const fm_case *of, const fm_key *key)
+{
+    const size_t index = (size_t)(key - fm_keys);
+    return (of->given[index / 64] >> index % 64 & 1u) != 0;
+}
+
 static void mark_given(fm_case *made, const fm_plan_point *point)
 {
-    for (size_t i = 0; i < point->selection->sweep_count; i++)
-        if (point->selection->sweeps[i].key != NULL)
-            made->is_given[point->selection->sweeps[i].key - fm_keys] = true;
+    for (size_t i = 0; i < point->selection->sweep_count; i++) {
+        const fm_key *key = point->selection->sweeps[i].key;
+        if (key != NULL)
+            made->given[(key - fm_keys) / 64] |= UINT64_C(1) << (key - fm_keys) % 64;
+    }
 }
 
 /* In the order of the descriptor: two ways to say the same are the same. */
-static void make_choices(fm_case *made, const fm_plan_point *point, const fm_method_desc *method)
+static fm_status make_choices(fm_case *made, const fm_plan_point *point,
+                              const fm_method_desc *method, fm_error *err)
 {
+    fm_choice choices[FM_MAX_OPTIONS];
+    size_t count = 0;
     for (size_t i = 0; i < FM_MAX_OPTIONS && method->options[i].name != NULL; i++) {
         for (size_t j = 0; j < point->selection->sweep_count; j++) {
             const fm_sweep *sweep = &point->selection->sweeps[j];
             if (sweep->key != NULL || strcmp(sweep->name, method->options[i].name) != 0)
                 continue;
-            fm_choice *choice = &made->choices[made->choice_count++];
-            snprintf(choice->name, sizeof choice->name, "%s", sweep->name);
-            snprintf(choice->value, sizeof choice->value, "%s", sweep_value(point, j));
+            snprintf(choices[count].name, sizeof choices->name, "%s", sweep->name);
+            snprintf(choices[count++].value, sizeof choices->value, "%s", sweep_value(point, j));
         }
     }
+    if (count == 0)
+        return FM_OK;
+    made->choices = malloc(count * sizeof *made->choices);
+    if (made->choices == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "no memory for a case's options");
+    memcpy(made->choices, choices, count * sizeof *choices);
+    made->choice_count = count;
+    return FM_OK;
 }
 
-static void skip_list(char *skip, size_t room, const char *start, const char *const *names,
-                      size_t count)
+static void list_names(fm_text *why, const char *const *names, size_t count)
 {
-    size_t length = (size_t)snprintf(skip, room, "%s", start);
-    for (size_t i = 0; i < count && names[i] != NULL && length < room; i++)
-        length +=
-            (size_t)snprintf(skip + length, room - length, "%s%s", i > 0 ? ", " : " ", names[i]);
+    for (size_t i = 0; i < count && names[i] != NULL; i++)
+        text_add(why, "%s%s", i > 0 ? ", " : " ", names[i]);
 }
 
-static void skip_for_feed(fm_case *made, const fm_method_desc *method)
+/* Why a case cannot run, one reason a function, which adds to *why; nothing, if it can. */
+
+static void refuse_feed(fm_text *why, const fm_case *made, const fm_method_desc *method)
 {
     const char *taken[FM_FEED_COUNT + 1];
-    char start[128];
     const size_t count = feed_names(taken, method_feeds(method));
     if ((method_feeds(method) & feed_from_name(made->feed)) != 0)
         return;
-    snprintf(start, sizeof start, "feed '%s': the method takes", made->feed);
-    skip_list(made->skip, sizeof made->skip, start, taken, count);
+    text_add(why, "feed '%s': the method takes", made->feed);
+    list_names(why, taken, count);
 }
 
 /* Frames are for their own device and from their own generator, fragments for and from all others.
  */
-static void skip_for_place(fm_case *made)
+static void refuse_place(fm_text *why, const fm_case *made, const fm_method_desc *method)
 {
+    (void)method;
     const uint32_t feed = feed_from_name(made->feed);
     const bool has_frames = generator_makes_frames(made->settings.generator);
     const fm_device_ops *ops = device_find(made->device);
     if (ops != NULL && (device_feeds(ops) & feed) == 0)
-        snprintf(made->skip, sizeof made->skip, "feed '%s': device %s does not take it", made->feed,
-                 ops->name);
+        text_add(why, "feed '%s': device %s does not take it", made->feed, ops->name);
     else if (has_frames != (feed == FM_FEED_FRAMES))
-        snprintf(made->skip, sizeof made->skip, "feed '%s': the scene is made of %s", made->feed,
+        text_add(why, "feed '%s': the scene is made of %s", made->feed,
                  has_frames ? "frames" : "fragments");
 }
 
-static void skip_for_choice(fm_case *made, const fm_method_desc *method)
-{
-    for (size_t i = 0; i < made->choice_count && made->skip[0] == '\0'; i++) {
-        const fm_choice *choice = &made->choices[i];
-        const fm_option *option = option_find(method, choice->name);
-        char start[192];
-        if (option_has_value(option, choice->value))
-            continue;
-        snprintf(start, sizeof start, "%s = %s: the method has", choice->name, choice->value);
-        skip_list(made->skip, sizeof made->skip, start, option->values, FM_MAX_OPTION_VALUES);
-    }
-}
-
-static void skip_for_k(fm_case *made, const fm_method_desc *method)
+static void refuse_k(fm_text *why, const fm_case *made, const fm_method_desc *method)
 {
     const uint32_t k = made->settings.k;
     if (!plugin_has_k(method))
         return;
     if (k == 0)
-        snprintf(made->skip, sizeof made->skip, "k = none: the method keeps the k nearest");
+        text_add(why, "k = none: the method keeps the k nearest");
     else if (method->k_max != 0 && k > method->k_max)
-        snprintf(made->skip, sizeof made->skip, "k = %u: the method's largest is %u", k,
-                 method->k_max);
+        text_add(why, "k = %u: the method's largest is %u", k, method->k_max);
 }
 
-static void skip_for_culling(fm_case *made, const fm_method_desc *method)
+static void refuse_choice(fm_text *why, const fm_case *made, const fm_method_desc *method)
+{
+    for (size_t i = 0; i < made->choice_count; i++) {
+        const fm_choice *choice = &made->choices[i];
+        const fm_option *option = option_find(method, choice->name);
+        if (option_has_value(option, choice->value))
+            continue;
+        text_add(why, "%s = %s: the method has", choice->name, choice->value);
+        list_names(why, option->values, FM_MAX_OPTION_VALUES);
+        return;
+    }
+}
+
+static void refuse_culling(fm_text *why, const fm_case *made, const fm_method_desc *method)
 {
     fm_error err;
     if (culling_check(method, &made->settings, feed_from_name(made->feed), &err) != FM_OK)
-        snprintf(made->skip, sizeof made->skip, "%.500s", err.message);
+        text_add(why, "%s", err.message);
+}
+
+static void refuse_method(fm_text *why, const fm_case *made, const fm_method_desc *method)
+{
+    static void (*const reasons[])(fm_text *, const fm_case *, const fm_method_desc *) = {
+        refuse_feed, refuse_place, refuse_k, refuse_choice, refuse_culling,
+    };
+    for (size_t i = 0; i < sizeof reasons / sizeof reasons[0] && why->length == 0; i++)
+        reasons[i](why, made, method);
 }
 
 static void remember_mesh(fm_mesh_memo *memo, const char *path)
@@ -182,26 +207,20 @@ static void remember_mesh(fm_mesh_memo *memo, const char *path)
         memo->digest = XXH64(path, strlen(path), 0);
 }
 
-static void make_skip(fm_case *made, const fm_plan_point *point)
+static fm_status make_skip(fm_case *made, const fm_plan_point *point, fm_error *err)
 {
     const fm_plugin_entry *entry = point->entry;
-    if (entry->plugin == NULL) {
-        snprintf(made->skip, sizeof made->skip, "plugin_error: %.400s", entry->error.message);
-        return;
-    }
-    skip_for_feed(made, entry->plugin->method);
-    if (made->skip[0] == '\0')
-        skip_for_place(made);
-    if (made->skip[0] == '\0')
-        skip_for_k(made, entry->plugin->method);
-    if (made->skip[0] == '\0')
-        skip_for_choice(made, entry->plugin->method);
-    if (made->skip[0] == '\0')
-        skip_for_culling(made, entry->plugin->method);
-    if (made->skip[0] == '\0' && point->memo->error.status != FM_OK &&
-        settings_file(&made->settings) != NULL)
-        snprintf(made->skip, sizeof made->skip, "%s: %.400s", settings_file_key(&made->settings),
-                 point->memo->error.message);
+    const bool has_file = settings_file(&made->settings) != NULL;
+    fm_text why = { 0 };
+    if (entry->plugin == NULL)
+        text_add(&why, "%s", entry->error.message);
+    else
+        refuse_method(&why, made, entry->plugin->method);
+    if (why.length == 0 && has_file && point->memo->error.status != FM_OK)
+        text_add(&why, "%s: %s", settings_file_key(&made->settings), point->memo->error.message);
+    made->skip = why.bytes;
+    made->skip_status = entry->plugin == NULL ? FM_CASE_PLUGIN_ERROR : FM_CASE_NOT_SUPPORTED;
+    return why.failed ? fm_fail(err, FM_NO_MEMORY, "no memory for a case's reason") : FM_OK;
 }
 
 static uint64_t mix(uint64_t mixed, const char *text)
@@ -246,25 +265,42 @@ static void make_id(fm_case *made, const fm_plan_point *point)
     snprintf(made->id, sizeof made->id, "%016llx", (unsigned long long)mixed);
 }
 
-fm_status plan_case_make(fm_case *made, const fm_plan_point *point, fm_error *err)
+static fm_status make_case(fm_case *made, const fm_plan_point *point, fm_error *err)
 {
-    *made = (fm_case){ 0 };
-    const fm_status status = make_settings(&made->settings, point, err);
+    fm_status status = make_settings(&made->settings, point, err);
     if (status != FM_OK)
         return status;
     mark_given(made, point);
     if (strcmp(point->feed, feed_name(FM_FEED_FRAMES)) == 0 &&
-        !made->is_given[key_find("launches") - fm_keys])
+        !case_is_given(made, key_find("launches")))
         made->settings.launches = 1;
     snprintf(made->method, sizeof made->method, "%s", point->entry->id);
     snprintf(made->scene, sizeof made->scene, "%s", point->scene);
     snprintf(made->device, sizeof made->device, "%s", point->device);
     snprintf(made->feed, sizeof made->feed, "%s", point->feed);
     if (point->entry->plugin != NULL)
-        make_choices(made, point, point->entry->plugin->method);
+        status = make_choices(made, point, point->entry->plugin->method, err);
     if (settings_file(&made->settings) != NULL)
         remember_mesh(point->memo, settings_file(&made->settings));
-    make_skip(made, point);
-    make_id(made, point);
-    return FM_OK;
+    if (status == FM_OK)
+        status = make_skip(made, point, err);
+    if (status == FM_OK)
+        make_id(made, point);
+    return status;
+}
+
+fm_status plan_case_make(fm_case *made, const fm_plan_point *point, fm_error *err)
+{
+    *made = (fm_case){ 0 };
+    const fm_status status = make_case(made, point, err);
+    if (status != FM_OK)
+        plan_case_release(made);
+    return status;
+}
+
+void plan_case_release(fm_case *made)
+{
+    free(made->choices);
+    free(made->skip);
+    *made = (fm_case){ 0 };
 }

@@ -22,7 +22,9 @@ typedef struct fm_plan_point {
     fm_mesh_memo *memo;   /* starts as {0} */
 } fm_plan_point;
 
-/* FM_INVALID: the point's keys contradict each other. */
+/* Makes the case, which the caller releases. FM_INVALID: the point's keys contradict each other;
+ * FM_NO_MEMORY. Nothing is to be released after a failure. */
 fm_status plan_case_make(fm_case *made, const fm_plan_point *point, fm_error *err);
+void plan_case_release(fm_case *made);
 
 #endif

@@ -179,7 +179,7 @@ static void summary_options_name_what_is_not_as_usual(void **state)
     fm_results *results = created(&fake, 1);
     assert_field(results, "options", "");
     fake.cases[0].settings.lock = FM_LOCK_INTERLOCK;
-    fake.cases[0].choices[0] = (fm_choice){ "layout", "pixel" };
+    fake.cases[0].choices = &(fm_choice){ "layout", "pixel" };
     fake.cases[0].choice_count = 1;
     assert_field(results, "options", "layout=pixel lock=interlock");
     results_destroy(results);
@@ -254,13 +254,16 @@ static void skipped_cases_tell_refusal_from_missing_support(void **state)
     fake_plan fake;
     fm_results *results = NULL;
     fake_open(&fake, only_kb, 1);
-    snprintf(fake.cases[0].skip, sizeof fake.cases[0].skip, "plugin_error: kb.so: wrong ABI");
+    char refused[] = "kb.so: wrong ABI", unsupported[] = "k above 16";
+    fake.cases[0].skip = refused;
+    fake.cases[0].skip_status = FM_CASE_PLUGIN_ERROR;
     assert_int_equal(results_create(&results, &fake.plan, &fake.list, fake.folder, "run", NULL),
                      FM_OK);
     assert_field(results, "status", "plugin_error");
     assert_field(results, "message", "kb.so: wrong ABI");
     results_destroy(results);
-    snprintf(fake.cases[0].skip, sizeof fake.cases[0].skip, "k above 16");
+    fake.cases[0].skip = unsupported;
+    fake.cases[0].skip_status = FM_CASE_NOT_SUPPORTED;
     assert_int_equal(results_create(&results, &fake.plan, &fake.list, fake.folder, "run", NULL),
                      FM_OK);
     assert_field(results, "status", "not_supported");

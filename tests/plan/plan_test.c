@@ -101,7 +101,8 @@ static void plan_of_nothing_is_every_method_but_controls(void **state)
     expect(&with, &(fm_plan_request){ 0 }, 3);
     assert_string_equal(with.plan.cases[0].method, "ab");
     assert_string_equal(with.plan.cases[1].method, "broken");
-    assert_string_equal(with.plan.cases[1].skip, "plugin_error: broken.so: abi");
+    assert_string_equal(with.plan.cases[1].skip, "broken.so: abi");
+    assert_int_equal(with.plan.cases[1].skip_status, FM_CASE_PLUGIN_ERROR);
     assert_string_equal(with.plan.cases[2].method, "kb");
     assert_string_equal(with.plan.cases[2].scene, "layers");
     assert_string_equal(with.plan.cases[2].device, "vulkan");
@@ -276,14 +277,15 @@ static void plan_skips_with_the_reason(void **state)
     fixture with;
     fixture_create(&with);
     expect(&with, &(fm_plan_request){ .methods = LIST("kb"), .axes = LIST("k=32,64") }, 2);
-    assert_string_equal(with.plan.cases[0].skip, "");
+    assert_null(with.plan.cases[0].skip);
     assert_string_equal(with.plan.cases[1].skip, "k = 64: the method's largest is 32");
+    assert_int_equal(with.plan.cases[1].skip_status, FM_CASE_NOT_SUPPORTED);
     expect(&with, &(fm_plan_request){ .methods = LIST("ab"), .feeds = LIST("triangles") }, 1);
     assert_string_equal(with.plan.cases[0].skip, "feed 'triangles': the method takes raster");
     expect(&with, &(fm_plan_request){ .methods = LIST("ab", "kb"), .axes = LIST("layout=layer") },
            2);
     assert_string_equal(with.plan.cases[0].skip, "layout = layer: the method has pixel, tile");
-    assert_string_equal(with.plan.cases[1].skip, "");
+    assert_null(with.plan.cases[1].skip);
     expect(&with,
            &(fm_plan_request){ .methods = LIST("kb"),
                                .axes = LIST("generator=mesh", "mesh=/nowhere/a.obj") },
@@ -301,7 +303,7 @@ static void plan_skips_what_cannot_be_culled(void **state)
            &(fm_plan_request){ .methods = LIST("ab", "kb"), .axes = LIST("culling=occupancy") }, 2);
     assert_string_equal(with.plan.cases[0].skip,
                         "culling = occupancy: the method keeps other fragments than the k nearest");
-    assert_string_equal(with.plan.cases[1].skip, "");
+    assert_null(with.plan.cases[1].skip);
     plan_free(&with.plan);
 }
 
@@ -458,7 +460,7 @@ static void plan_keeps_keys_from_scenes_that_do_not_read_them(void **state)
                 "generator: mesh\nmesh: spec.yml\n"); /* any file has a digest */
     expect(&with, &(fm_plan_request){ .spec = at.spec }, 5);
     assert_int_equal(with.plan.cases[4].settings.n, 0);
-    assert_string_equal(with.plan.cases[4].skip, "");
+    assert_null(with.plan.cases[4].skip);
     assert_string_equal(with.plan.cases[4].settings.mesh, at.spec);
     spec_destroy(&at);
     plan_free(&with.plan);
