@@ -11,9 +11,9 @@ static uint32_t below(fm_adversary *s, uint32_t bound)
     return random_below(&s->state, bound);
 }
 
-static bool one_in(fm_adversary *s, uint32_t of)
+static bool one_in(fm_adversary *s, uint32_t count)
 {
-    return below(s, of) == 0;
+    return below(s, count) == 0;
 }
 
 static void place(fm_adversary *s, fm_adverse_thing *t)
@@ -180,15 +180,15 @@ void adversary_start(fm_adversary *made, const fm_adversary_desc *desc)
     made->is_near = (desc->flags & ADVERSE_FAR_CLEAR) != 0 && one_in(made, 4);
 }
 
-void adversary_frame(fm_frame_builder *builder, fm_adversary *of)
+void adversary_frame(fm_frame_builder *builder, fm_adversary *adversary)
 {
     frame_builder_clear(builder);
-    if (of->is_near)
+    if (adversary->is_near)
         builder->frame.clear_depth = FRAMES_DEPTH_MAX / 2;
-    emit(builder, of);
-    for (uint32_t times = below(of, 3); (of->desc.flags & ADVERSE_STATIC) == 0 && times > 0;
-         times--)
-        change(of);
+    emit(builder, adversary);
+    for (uint32_t times = below(adversary, 3);
+         (adversary->desc.flags & ADVERSE_STATIC) == 0 && times > 0; times--)
+        change(adversary);
 }
 
 /* ---- the sequence ---- */

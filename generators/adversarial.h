@@ -55,7 +55,7 @@ typedef struct fm_adversary {
 void adversary_start(fm_adversary *made, const fm_adversary_desc *desc);
 /* The next frame, in place of what the builder holds. The same desc gives the same frames on every
  * machine. */
-void adversary_frame(fm_frame_builder *builder, fm_adversary *of);
+void adversary_frame(fm_frame_builder *builder, fm_adversary *adversary);
 
 /* All of it, as a scene. FM_INVALID: a viewport over FRAMES_SIDE_MAX; FM_NO_MEMORY. */
 fm_status adversarial_generate(fm_sequence **sequence, const fm_settings *settings, fm_error *err);

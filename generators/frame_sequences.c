@@ -18,14 +18,14 @@ enum {
     SCALARS = 8,
 };
 
-/* What a number is drawn for: streams that do not touch one another. */
-typedef enum stream {
-    STREAM_CAMERA = 1,
-    STREAM_SPRITE,
-    STREAM_OBJECT,
-    STREAM_BUMP,
-    STREAM_CHURN,
-} stream;
+/* What a number is drawn for: sequences that do not touch one another. */
+typedef enum drawn_for {
+    FOR_CAMERA = 1,
+    FOR_SPRITE,
+    FOR_OBJECT,
+    FOR_BUMP,
+    FOR_CHURN,
+} drawn_for;
 
 typedef struct generator {
     fm_sequence base;
@@ -39,16 +39,16 @@ typedef struct generator {
 } generator;
 
 /* Uniform in 0..2^32 - 1, a function of its arguments alone. */
-static uint32_t draw_number(const generator *g, stream of, uint32_t index, uint32_t which)
+static uint32_t draw_number(const generator *g, drawn_for purpose, uint32_t index, uint32_t which)
 {
     uint64_t state = g->settings.seed;
-    state = random_next(&state) ^ ((uint64_t)of << 56 | (uint64_t)which << 32 | index);
+    state = random_next(&state) ^ ((uint64_t)purpose << 56 | (uint64_t)which << 32 | index);
     return (uint32_t)(random_next(&state) >> 32);
 }
 
-static double draw_unit(const generator *g, stream of, uint32_t index, uint32_t which)
+static double draw_unit(const generator *g, drawn_for purpose, uint32_t index, uint32_t which)
 {
-    return draw_number(g, of, index, which) * 0x1p-32;
+    return draw_number(g, purpose, index, which) * 0x1p-32;
 }
 
 fm_status frames_check_size(const fm_settings *settings, fm_error *err)
@@ -130,12 +130,12 @@ static int32_t opaque_top(const generator *g)
 
 static void add_sprite(generator *g, uint32_t index, uint32_t frame)
 {
-    const double size = g->settings.object_px * (0.5 + draw_unit(g, STREAM_SPRITE, index, 0)) * SUB;
+    const double size = g->settings.object_px * (0.5 + draw_unit(g, FOR_SPRITE, index, 0)) * SUB;
     const int32_t side = (int32_t)lround(size);
-    int32_t x = (int32_t)(draw_number(g, STREAM_SPRITE, index, 1) % (uint32_t)g->width) - side / 2;
-    int32_t y = (int32_t)(draw_number(g, STREAM_SPRITE, index, 2) % g->field) - side / 2;
-    const uint32_t motion = draw_number(g, STREAM_SPRITE, index, 3);
-    if (draw_unit(g, STREAM_SPRITE, index, 4) < g->settings.moving) {
+    int32_t x = (int32_t)(draw_number(g, FOR_SPRITE, index, 1) % (uint32_t)g->width) - side / 2;
+    int32_t y = (int32_t)(draw_number(g, FOR_SPRITE, index, 2) % g->field) - side / 2;
+    const uint32_t motion = draw_number(g, FOR_SPRITE, index, 3);
+    if (draw_unit(g, FOR_SPRITE, index, 4) < g->settings.moving) {
         x += swing(frame, motion % (2 * SWING), SUB + (int32_t)(motion >> 8 & 15));
         y += swing(frame, motion >> 16 & 31, (int32_t)(motion >> 24 & 15));
     }
@@ -152,7 +152,7 @@ static void add_sprites(generator *g, uint32_t frame)
             fm_draw_call draw = plain_draw(g, 64 + i / BATCH);
             const uint32_t left = g->settings.sprites - i;
             draw.vertices = 4 * (left < BATCH ? left : BATCH);
-            if (draw_unit(g, STREAM_SPRITE, i, 5) < g->settings.translucent) {
+            if (draw_unit(g, FOR_SPRITE, i, 5) < g->settings.translucent) {
                 draw.mix = FM_MIX_OVER;
                 draw.alpha = 128;
                 draw.flags = FM_DRAW_TEXTURED_ALPHA;
@@ -176,7 +176,7 @@ typedef struct object {
 static fm_corner grid_corner(const generator *g, const object *o, uint32_t i, uint32_t k)
 {
     const int32_t n = (int32_t)g->grid;
-    const double bump = 0.04 * draw_unit(g, STREAM_BUMP, o->index, i * (GRID_MAX + 1) + k);
+    const double bump = 0.04 * draw_unit(g, FOR_BUMP, o->index, i * (GRID_MAX + 1) + k);
     const double tilt = 0.03 * ((double)k / n - 0.5);
     const double z = fmin(fmax(o->depth + bump + tilt, 0.0), 0.999);
     return (fm_corner){ .x = o->x + o->side * (int32_t)i / n,
@@ -199,7 +199,7 @@ static void add_grid(generator *g, const object *o)
 
 static double object_depth(const generator *g, uint32_t index)
 {
-    return 0.05 + 0.85 * draw_unit(g, STREAM_OBJECT, index, 0);
+    return 0.05 + 0.85 * draw_unit(g, FOR_OBJECT, index, 0);
 }
 
 /* Near ones are larger and follow the camera further. */
@@ -209,10 +209,10 @@ static object place_object(const generator *g, uint32_t index, uint32_t frame)
     const double area = g->settings.depth_complexity * (double)g->width * g->height /
                         (g->object_count > 0 ? g->object_count : 1);
     o.side = (int32_t)lround(sqrt(area) * (1.3 - 0.6 * o.depth));
-    o.x = (int32_t)(draw_number(g, STREAM_OBJECT, index, 1) % (uint32_t)g->width) - o.side / 2;
-    o.y = (int32_t)(draw_number(g, STREAM_OBJECT, index, 2) % (uint32_t)g->height) - o.side / 2;
-    if (draw_unit(g, STREAM_OBJECT, index, 3) < g->settings.moving)
-        o.x += swing(frame, draw_number(g, STREAM_OBJECT, index, 4) % SWING, SUB);
+    o.x = (int32_t)(draw_number(g, FOR_OBJECT, index, 1) % (uint32_t)g->width) - o.side / 2;
+    o.y = (int32_t)(draw_number(g, FOR_OBJECT, index, 2) % (uint32_t)g->height) - o.side / 2;
+    if (draw_unit(g, FOR_OBJECT, index, 3) < g->settings.moving)
+        o.x += swing(frame, draw_number(g, FOR_OBJECT, index, 4) % SWING, SUB);
     const int32_t span = g->width + 2 * o.side;
     o.x = (o.x + o.side + span - camera(g, frame, 1.2 - o.depth) % span) % span - o.side;
     return o;
@@ -256,7 +256,7 @@ static uint32_t count_changes(const generator *g, uint32_t cell, uint32_t frame)
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i <= frame; i++)
-        count += draw_unit(g, STREAM_CHURN, cell, i) < g->settings.hidden_churn;
+        count += draw_unit(g, FOR_CHURN, cell, i) < g->settings.hidden_churn;
     return count;
 }
 
@@ -338,33 +338,44 @@ static fm_status make_camera(generator *g, fm_error *err)
     return FM_OK;
 }
 
-/* Selection by the smallest key: depth and chance, mixed. */
+/* An object and when its turn is: the smaller the key, the earlier. */
+typedef struct object_turn {
+    double key;
+    uint32_t index;
+} object_turn;
+
+/* Of equal keys the lower index comes first, so that the order is the same on every machine. */
+static int compare_turns(const void *left, const void *right)
+{
+    const object_turn *a = left, *b = right;
+    if (a->key < b->key || a->key > b->key)
+        return a->key < b->key ? -1 : 1;
+    return (a->index > b->index) - (a->index < b->index);
+}
+
+/* Depth and chance, mixed, decide in which order objects are drawn. */
 static fm_status make_objects(generator *g, fm_error *err)
 {
     const fm_settings *s = &g->settings;
     const double side = 4 * s->object_px * SUB;
     const double count = s->depth_complexity * (double)g->width * g->height / (side * side);
     g->object_count = s->triangles > 0 ? (uint32_t)lround(fmin(fmax(count, 1), 60000)) : 0;
-    double *keys = calloc(g->object_count + 1, sizeof *keys);
+    object_turn *turns = calloc(g->object_count + 1, sizeof *turns);
     g->object_order = calloc(g->object_count + 1, sizeof *g->object_order);
-    if (keys == NULL || g->object_order == NULL) {
-        free(keys);
+    if (turns == NULL || g->object_order == NULL) {
+        free(turns);
         return fm_fail(err, FM_NO_MEMORY, "no memory for %u objects", g->object_count);
     }
     const double cells = g->object_count > 0 ? s->triangles / 2.0 / g->object_count : 0;
     g->grid = (uint32_t)fmin(fmax(round(sqrt(cells)), 1), GRID_MAX);
-    for (uint32_t i = 0; i < g->object_count; i++) {
-        const double key = s->front_to_back * object_depth(g, i) +
-                           (1 - s->front_to_back) * draw_unit(g, STREAM_OBJECT, i, 5);
-        uint32_t at = i;
-        for (; at > 0 && keys[at - 1] > key; at--) {
-            keys[at] = keys[at - 1];
-            g->object_order[at] = g->object_order[at - 1];
-        }
-        keys[at] = key;
-        g->object_order[at] = i;
-    }
-    free(keys);
+    for (uint32_t i = 0; i < g->object_count; i++)
+        turns[i] = (object_turn){ s->front_to_back * object_depth(g, i) +
+                                      (1 - s->front_to_back) * draw_unit(g, FOR_OBJECT, i, 5),
+                                  i };
+    qsort(turns, g->object_count, sizeof *turns, compare_turns);
+    for (uint32_t i = 0; i < g->object_count; i++)
+        g->object_order[i] = turns[i].index;
+    free(turns);
     return FM_OK;
 }
 

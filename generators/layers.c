@@ -12,10 +12,10 @@
 static const uint64_t max_order_bytes = UINT64_C(2) << 30;
 enum { CLUSTERS = 8 };
 
-/* Independent streams of random numbers of one seed. */
-enum { STREAM_ORDER = 1, STREAM_ALPHA = 2, STREAM_SLOPE = 3 };
+/* What random numbers are for: independent sequences of one seed. */
+enum { FOR_ORDER = 1, FOR_ALPHA = 2, FOR_SLOPE = 3 };
 
-static uint64_t stream(uint64_t seed, uint64_t number)
+static uint64_t sequence_start(uint64_t seed, uint64_t number)
 {
     uint64_t state = seed ^ number * 0xD6E8FEB86659FD93u;
     return random_next(&state);
@@ -97,7 +97,7 @@ static int compare_depths(const void *left, const void *right)
 static void fill_depths(fm_scene *scene)
 {
     const uint32_t n = scene->n;
-    uint64_t state = stream(scene->settings.seed, STREAM_SLOPE);
+    uint64_t state = sequence_start(scene->settings.seed, FOR_SLOPE);
     for (uint32_t i = 0; i < n; i++) {
         switch (scene->settings.depths) {
         case FM_DEPTHS_UNIFORM:
@@ -161,7 +161,7 @@ static uint32_t premultiplied(uint32_t bgr, uint32_t alpha)
 static void fill_colours(fm_scene *scene)
 {
     const fm_settings *settings = &scene->settings;
-    uint64_t state = stream(settings->seed, STREAM_ALPHA);
+    uint64_t state = sequence_start(settings->seed, FOR_ALPHA);
     for (uint32_t i = 0; i < scene->n; i++) {
         uint32_t alpha = (uint32_t)lround(settings->alpha * 255.0);
         if (settings->alphas == FM_ALPHAS_RANDOM && alpha > 0)
@@ -183,7 +183,7 @@ static void shuffle(uint32_t *row, uint32_t count, uint64_t *state)
 static void fill_order(fm_scene *scene)
 {
     const uint32_t n = scene->n;
-    uint64_t state = stream(scene->settings.seed, STREAM_ORDER);
+    uint64_t state = sequence_start(scene->settings.seed, FOR_ORDER);
     const bool is_shuffled = scene->settings.order == FM_ORDER_RANDOM ||
                              scene->settings.order == FM_ORDER_RANDOM_CELL ||
                              scene->settings.order == FM_ORDER_CELL_MAJOR;

@@ -78,22 +78,22 @@ static bool varies(const fm_plan *plan, const fm_key *key)
     return false;
 }
 
-static void write_case(FILE *out, const fm_case *of, const bool *is_told)
+static void write_case(FILE *out, const fm_case *planned, const bool *is_told)
 {
     char text[FM_PATH_MAX_BYTES];
-    fprintf(out, "%s  %-16s  %-14s  %-16s  %-8s", of->id, of->method, of->scene, of->feed,
-            of->device);
+    fprintf(out, "%s  %-16s  %-14s  %-16s  %-8s", planned->id, planned->method, planned->scene,
+            planned->feed, planned->device);
     for (size_t i = 0; i < fm_key_count; i++) {
-        settings_text(text, &of->settings, &fm_keys[i]);
+        settings_text(text, &planned->settings, &fm_keys[i]);
         if ((is_told[i] && strcmp(text, "none") != 0) ||
-            (strcmp(fm_keys[i].name, "k") == 0 && of->settings.k > 0))
+            (strcmp(fm_keys[i].name, "k") == 0 && planned->settings.k > 0))
             fprintf(out, "  %s=%s", fm_keys[i].name, text);
     }
-    for (size_t i = 0; i < of->choice_count; i++)
-        fprintf(out, "  %s=%s", of->choices[i].name, of->choices[i].value);
-    if (of->skip != NULL)
+    for (size_t i = 0; i < planned->choice_count; i++)
+        fprintf(out, "  %s=%s", planned->choices[i].name, planned->choices[i].value);
+    if (planned->skip != NULL)
         fprintf(out, "  (not run: %s%s)",
-                of->skip_status == FM_CASE_PLUGIN_ERROR ? "refused: " : "", of->skip);
+                planned->skip_status == FM_CASE_PLUGIN_ERROR ? "refused: " : "", planned->skip);
     fputc('\n', out);
 }
 
@@ -120,23 +120,24 @@ static int write_table(const fm_cli *cli, const fm_plan *plan)
     return CLI_DONE;
 }
 
-static json_t *case_json(const fm_case *of)
+static json_t *case_json(const fm_case *planned)
 {
     char text[FM_PATH_MAX_BYTES];
     json_t *settings = json_object(), *chosen = json_object();
     for (size_t i = 0; i < fm_key_count; i++) {
-        if (!key_is_read(&fm_keys[i], of->settings.generator))
+        if (!key_is_read(&fm_keys[i], planned->settings.generator))
             continue;
-        settings_text(text, &of->settings, &fm_keys[i]);
+        settings_text(text, &planned->settings, &fm_keys[i]);
         json_object_set_new(settings, fm_keys[i].name, json_string(text));
     }
-    for (size_t i = 0; i < of->choice_count; i++)
-        json_object_set_new(chosen, of->choices[i].name, json_string(of->choices[i].value));
-    return json_pack("{s:s, s:s, s:s, s:s, s:s, s:o, s:o, s:s, s:s?}", "case_id", of->id, "method",
-                     of->method, "scene", of->scene, "device", of->device, "feed", of->feed,
-                     "settings", settings, "options", chosen, "skip",
-                     of->skip != NULL ? of->skip : "", "skip_status",
-                     of->skip != NULL ? case_status_name(of->skip_status) : NULL);
+    for (size_t i = 0; i < planned->choice_count; i++)
+        json_object_set_new(chosen, planned->choices[i].name,
+                            json_string(planned->choices[i].value));
+    return json_pack("{s:s, s:s, s:s, s:s, s:s, s:o, s:o, s:s, s:s?}", "case_id", planned->id,
+                     "method", planned->method, "scene", planned->scene, "device", planned->device,
+                     "feed", planned->feed, "settings", settings, "options", chosen, "skip",
+                     planned->skip != NULL ? planned->skip : "", "skip_status",
+                     planned->skip != NULL ? case_status_name(planned->skip_status) : NULL);
 }
 
 static int write_json(const fm_cli *cli, const fm_plan *plan)

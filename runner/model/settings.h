@@ -1,6 +1,7 @@
 /* Every key that a spec, a scene file or -a can set: one table of names, types, ranges, defaults
  * and help, and the struct that they fill. Scene files, spec files, `-a KEY=VALUE` and `--help`
- * share this table and nothing else knows a key's spelling.
+ * read this table. A new key is a member of fm_settings and a row of fm_keys; whoever uses its
+ * value is code elsewhere, and a key that makes scenes or changes methods needs some.
  *
  * A value that may be an axis ("k=4,8,16", "k=4:64:*2", "k=4:16:+4") is kept as a list of texts in
  * a plan; one case has exactly one value for each key. */

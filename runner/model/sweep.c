@@ -49,43 +49,43 @@ static fm_status add_value(fm_sweep *sweep, const char *text, fm_error *err)
     return FM_OK;
 }
 
-static fm_status bad_range(const fm_sweep *sweep, const range *of, const char *why, fm_error *err)
+static fm_status bad_range(const fm_sweep *sweep, const range *span, const char *why, fm_error *err)
 {
     return fm_fail(err, FM_INVALID,
                    "%s: range '%.100s': %s; write LOW:HIGH:*FACTOR or LOW:HIGH:+STEP",
-                   sweep->origin, of->text, why);
+                   sweep->origin, span->text, why);
 }
 
-static fm_status add_whole_range(fm_sweep *sweep, const range *of, const uint64_t parts[3],
+static fm_status add_whole_range(fm_sweep *sweep, const range *span, const uint64_t parts[3],
                                  fm_error *err)
 {
     const uint64_t low = parts[0], high = parts[1], step = parts[2];
     if (low > high)
-        return bad_range(sweep, of, "LOW is above HIGH", err);
-    if (of->is_factor ? step < 2 || low == 0 : step == 0)
-        return bad_range(sweep, of, "it would never end", err);
+        return bad_range(sweep, span, "LOW is above HIGH", err);
+    if (span->is_factor ? step < 2 || low == 0 : step == 0)
+        return bad_range(sweep, span, "it would never end", err);
     for (uint64_t value = low;;) {
         char text[32];
         snprintf(text, sizeof text, "%llu", (unsigned long long)value);
         const fm_status status = add_value(sweep, text, err);
         if (status != FM_OK)
             return status;
-        if (of->is_factor ? value > high / step : value > high - step || step > high)
+        if (span->is_factor ? value > high / step : value > high - step || step > high)
             return FM_OK;
-        value = of->is_factor ? value * step : value + step;
+        value = span->is_factor ? value * step : value + step;
     }
 }
 
-static fm_status add_real_range(fm_sweep *sweep, const range *of, const double parts[3],
+static fm_status add_real_range(fm_sweep *sweep, const range *span, const double parts[3],
                                 fm_error *err)
 {
     const double low = parts[0], high = parts[1], step = parts[2];
     /* Room for rounding: 0.1:0.3:+0.1 ends with 0.3. */
-    const double end = of->is_factor ? high * (1 + 1e-9) : high + step * 1e-9;
+    const double end = span->is_factor ? high * (1 + 1e-9) : high + step * 1e-9;
     if (low > high)
-        return bad_range(sweep, of, "LOW is above HIGH", err);
-    if (of->is_factor ? step <= 1 || low <= 0 : step <= 0)
-        return bad_range(sweep, of, "it would never end", err);
+        return bad_range(sweep, span, "LOW is above HIGH", err);
+    if (span->is_factor ? step <= 1 || low <= 0 : step <= 0)
+        return bad_range(sweep, span, "it would never end", err);
     double value = low;
     for (uint32_t i = 1; value <= end; i++) {
         char text[32];
@@ -94,24 +94,25 @@ static fm_status add_real_range(fm_sweep *sweep, const range *of, const double p
         if (status != FM_OK)
             return status;
         if (i > FM_SWEEP_MAX_VALUES)
-            return bad_range(sweep, of, "the step is too small", err);
-        value = of->is_factor ? value * step : low + i * step;
+            return bad_range(sweep, span, "the step is too small", err);
+        value = span->is_factor ? value * step : low + i * step;
     }
     return FM_OK;
 }
 
-static fm_status add_range(fm_sweep *sweep, const range *of, fm_error *err)
+static fm_status add_range(fm_sweep *sweep, const range *span, fm_error *err)
 {
-    const char *const texts[3] = { of->low, of->high, of->step };
+    const char *const texts[3] = { span->low, span->high, span->step };
     uint64_t whole[3];
     double real[3];
     bool is_whole = true;
     for (size_t i = 0; i < 3; i++) {
         is_whole = text_to_u64(&whole[i], texts[i]) && is_whole;
         if (!text_to_double(&real[i], texts[i]))
-            return bad_range(sweep, of, "not three numbers", err);
+            return bad_range(sweep, span, "not three numbers", err);
     }
-    return is_whole ? add_whole_range(sweep, of, whole, err) : add_real_range(sweep, of, real, err);
+    return is_whole ? add_whole_range(sweep, span, whole, err)
+                    : add_real_range(sweep, span, real, err);
 }
 
 static fm_status add_item(fm_sweep *sweep, const char *item, fm_error *err)

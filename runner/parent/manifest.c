@@ -115,19 +115,19 @@ static json_t *text_json(const char *text)
     return json;
 }
 
-static json_t *scene_json(const fm_case *of)
+static json_t *scene_json(const fm_case *planned)
 {
     char hash[17], value[FM_PATH_MAX_BYTES];
     json_t *settings = json_object();
-    settings_scene_hash(hash, &of->settings);
+    settings_scene_hash(hash, &planned->settings);
     for (size_t i = 0; i < fm_key_count; i++) {
         const fm_key *key = &fm_keys[i];
-        if (key->scope != FM_SCOPE_SCENE || !key_is_read(key, of->settings.generator))
+        if (key->scope != FM_SCOPE_SCENE || !key_is_read(key, planned->settings.generator))
             continue;
-        settings_text(value, &of->settings, key);
+        settings_text(value, &planned->settings, key);
         json_object_set_new(settings, key->name, json_string(value));
     }
-    return json_pack("{s:o, s:s, s:o}", "name", text_json(of->scene), "hash", hash, "settings",
+    return json_pack("{s:o, s:s, s:o}", "name", text_json(planned->scene), "hash", hash, "settings",
                      settings);
 }
 

@@ -98,34 +98,34 @@ static fm_status fail_run(const json_t *answer, const char *current, fm_error *e
                    current, answer_message(answer));
 }
 
-static const char *plugin_path(const run_state *run, const fm_case *of)
+static const char *plugin_path(const run_state *run, const fm_case *planned)
 {
-    const fm_plugin_entry *entry = plugin_list_find(run->plugins, of->method);
+    const fm_plugin_entry *entry = plugin_list_find(run->plugins, planned->method);
     return entry != NULL && entry->plugin != NULL ? entry->plugin->path : "";
 }
 
 fm_status run_capture_truth(run_state *run, size_t job, fm_error *err)
 {
     char path[FM_PATH_MAX_BYTES], name[sizeof run->truths.jobs[job].name + 8], current[160];
-    const fm_case *of = &run->plan->cases[run->truths.jobs[job].of];
+    const fm_case *planned = &run->plan->cases[run->truths.jobs[job].of];
     fm_launch_outcome outcome;
     fm_status status = run_path(path, run, "truth", run->truths.jobs[job].name, ".truth", err);
     if (status != FM_OK)
         return status;
     snprintf(name, sizeof name, "truth-%s", run->truths.jobs[job].name);
-    snprintf(current, sizeof current, "truth of %.60s on %.60s", of->scene, of->device);
+    snprintf(current, sizeof current, "truth of %.60s on %.60s", planned->scene, planned->device);
     progress_begin(&run->progress, current);
     if (access(path, R_OK) == 0) { /* an interrupted run's: written whole or not at all */
         progress_skip(&run->progress);
         return FM_OK;
     }
     const fm_request request = {
-        .device = of->device,
-        .feed = of->feed,
-        .settings = &of->settings,
-        .choices = of->choices,
-        .choice_count = of->choice_count,
-        .plugin = plugin_path(run, of),
+        .device = planned->device,
+        .feed = planned->feed,
+        .settings = &planned->settings,
+        .choices = planned->choices,
+        .choice_count = planned->choice_count,
+        .plugin = plugin_path(run, planned),
         .floor = run->truths.jobs[job].floor,
         .common = run->plugins->common_folder,
         .truth = path,
@@ -148,30 +148,31 @@ fm_status run_capture_truth(run_state *run, size_t job, fm_error *err)
 
 fm_status run_measure(run_state *run, size_t case_index, uint32_t launch, fm_error *err)
 {
-    const fm_case *of = &run->plan->cases[case_index];
+    const fm_case *planned = &run->plan->cases[case_index];
     char truth[FM_PATH_MAX_BYTES], image[FM_PATH_MAX_BYTES] = "", k[FM_PATH_MAX_BYTES],
                                    current[160];
     fm_launch_outcome outcome;
     fm_status status = run_path(
         truth, run, "truth", run->truths.jobs[run->truths.of_case[case_index]].name, ".truth", err);
-    if (status == FM_OK && launch == 0 && !run->desc->no_images && !of->no_image)
-        status = run_path(image, run, "images", of->id, ".rgba32f", err);
+    if (status == FM_OK && launch == 0 && !run->desc->no_images && !planned->no_image)
+        status = run_path(image, run, "images", planned->id, ".rgba32f", err);
     if (status == FM_OK)
-        status = journal_write(run->journal, FM_JOURNAL_BEGIN, of->id, launch, NULL, err);
+        status = journal_write(run->journal, FM_JOURNAL_BEGIN, planned->id, launch, NULL, err);
     if (status != FM_OK)
         return status;
-    settings_text(k, &of->settings, key_find("k"));
-    const bool has_k = of->settings.k != 0;
-    snprintf(current, sizeof current, "%.32s%s%.8s %.30s %.30s %.20s, launch %u", of->method,
-             has_k ? " k=" : "", has_k ? k : "", of->scene, of->device, of->feed, launch);
+    settings_text(k, &planned->settings, key_find("k"));
+    const bool has_k = planned->settings.k != 0;
+    snprintf(current, sizeof current, "%.32s%s%.8s %.30s %.30s %.20s, launch %u", planned->method,
+             has_k ? " k=" : "", has_k ? k : "", planned->scene, planned->device, planned->feed,
+             launch);
     progress_begin(&run->progress, current);
     const fm_request request = {
-        .device = of->device,
-        .feed = of->feed,
-        .settings = &of->settings,
-        .choices = of->choices,
-        .choice_count = of->choice_count,
-        .plugin = plugin_path(run, of),
+        .device = planned->device,
+        .feed = planned->feed,
+        .settings = &planned->settings,
+        .choices = planned->choices,
+        .choice_count = planned->choice_count,
+        .plugin = plugin_path(run, planned),
         .floor = run->truths.jobs[run->truths.of_case[case_index]].floor,
         .common = run->plugins->common_folder,
         .truth = truth,
@@ -181,12 +182,12 @@ fm_status run_measure(run_state *run, size_t case_index, uint32_t launch, fm_err
         .no_timers = run->desc->no_timers,
         .launch = launch,
     };
-    status = ask(&outcome, run, of->id, &request, err);
+    status = ask(&outcome, run, planned->id, &request, err);
     if (status != FM_OK)
         return status;
     const bool is_unfinished = outcome.is_interrupted || answer_is_runs_fault(outcome.result);
     if (is_unfinished)
-        status = journal_write(run->journal, FM_JOURNAL_STOP, of->id, launch, NULL, err);
+        status = journal_write(run->journal, FM_JOURNAL_STOP, planned->id, launch, NULL, err);
     else
         status = run_end_launch(run, case_index, launch, outcome.result, err);
     if (outcome.is_interrupted)

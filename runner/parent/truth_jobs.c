@@ -7,30 +7,30 @@
 
 #include "model/feeds.h"
 
-static void truth_name(char name[200], const fm_case *of)
+static void truth_name(char name[200], const fm_case *planned)
 {
     char hash[17];
-    const fm_feed_info *feed = feed_info(feed_from_name(of->feed));
+    const fm_feed_info *feed = feed_info(feed_from_name(planned->feed));
     const bool is_shared = feed != NULL && feed->is_of_rasteriser;
-    settings_scene_hash(hash, &of->settings);
-    snprintf(name, 200, "%s-%s%s%s", hash, of->device, is_shared ? "" : "-",
-             is_shared ? "" : of->feed);
+    settings_scene_hash(hash, &planned->settings);
+    snprintf(name, 200, "%s-%s%s%s", hash, planned->device, is_shared ? "" : "-",
+             is_shared ? "" : planned->feed);
     /* "vulkan:0", or a device's whole name: no slash, no blank in a file's name. */
     for (char *c = name; *c != '\0'; c++)
         if (!isalnum((unsigned char)*c) && *c != '.' && *c != '_')
             *c = '-';
 }
 
-static fm_status find_floor(fm_truth_job *job, const fm_case *of, const fm_plugin_list *plugins,
-                            fm_error *err)
+static fm_status find_floor(fm_truth_job *job, const fm_case *planned,
+                            const fm_plugin_list *plugins, fm_error *err)
 {
     const fm_plugin *floor = NULL;
     if (job->floor == NULL)
         job->floor = "";
-    if (of->skip != NULL || job->floor[0] != '\0' ||
-        !feed_info(feed_from_name(of->feed))->has_floor)
+    if (planned->skip != NULL || job->floor[0] != '\0' ||
+        !feed_info(feed_from_name(planned->feed))->has_floor)
         return FM_OK;
-    const fm_status status = plugin_list_floor(&floor, plugins, feed_from_name(of->feed), err);
+    const fm_status status = plugin_list_floor(&floor, plugins, feed_from_name(planned->feed), err);
     if (status == FM_OK)
         job->floor = floor->path;
     return status;

@@ -53,43 +53,43 @@ static uint64_t count_cases(const fm_chosen *chosen)
 }
 
 /* Takes the id; false: another case has it. */
-static bool take_id(expansion *of, const char *text)
+static bool take_id(expansion *state, const char *text)
 {
     const uint64_t id = strtoull(text, NULL, 16) | 1; /* 0 is a free slot */
     size_t slot = (size_t)(id >> 1) % ID_SLOTS;
-    for (; of->ids[slot] != 0; slot = (slot + 1) % ID_SLOTS)
-        if (of->ids[slot] == id)
+    for (; state->ids[slot] != 0; slot = (slot + 1) % ID_SLOTS)
+        if (state->ids[slot] == id)
             return false;
-    of->ids[slot] = id;
+    state->ids[slot] = id;
     return true;
 }
 
-static fm_status add_case(expansion *of, const fm_plan_point *point)
+static fm_status add_case(expansion *state, const fm_plan_point *point)
 {
-    if (of->count == of->capacity) {
-        const size_t capacity = of->capacity > 0 ? 2 * of->capacity : 64;
-        fm_case *cases = realloc(of->cases, capacity * sizeof *cases);
+    if (state->count == state->capacity) {
+        const size_t capacity = state->capacity > 0 ? 2 * state->capacity : 64;
+        fm_case *cases = realloc(state->cases, capacity * sizeof *cases);
         if (cases == NULL)
-            return no_memory(of->err);
-        of->cases = cases;
-        of->capacity = capacity;
+            return no_memory(state->err);
+        state->cases = cases;
+        state->capacity = capacity;
     }
-    fm_case *made = &of->cases[of->count];
-    const fm_status status = plan_case_make(made, point, of->err);
+    fm_case *made = &state->cases[state->count];
+    const fm_status status = plan_case_make(made, point, state->err);
     if (status != FM_OK)
         return status;
-    if (take_id(of, made->id))
-        of->count++;
+    if (take_id(state, made->id))
+        state->count++;
     else
         plan_case_release(made);
     return FM_OK;
 }
 
 /* The next point, the last axis fastest; false: there is none. */
-static bool next_point(size_t *values, const expansion *of, const fm_plugin_entry *entry)
+static bool next_point(size_t *values, const expansion *state, const fm_plugin_entry *entry)
 {
-    for (size_t i = of->chosen.selection.sweep_count; i-- > 0;) {
-        const fm_sweep *sweep = &of->chosen.selection.sweeps[i];
+    for (size_t i = state->chosen.selection.sweep_count; i-- > 0;) {
+        const fm_sweep *sweep = &state->chosen.selection.sweeps[i];
         if (!is_swept(entry, sweep))
             continue;
         if (++values[i] < sweep->values.count)
@@ -99,16 +99,16 @@ static bool next_point(size_t *values, const expansion *of, const fm_plugin_entr
     return false;
 }
 
-static fm_status expand_methods(expansion *of, fm_plan_point *point)
+static fm_status expand_methods(expansion *state, fm_plan_point *point)
 {
     size_t values[FM_MAX_SWEEPS] = { 0 };
     fm_status status = FM_OK;
     point->values = values;
-    for (size_t i = 0; i < of->chosen.method_count; i++) {
-        point->entry = of->chosen.methods[i];
+    for (size_t i = 0; i < state->chosen.method_count; i++) {
+        point->entry = state->chosen.methods[i];
         do
-            status = add_case(of, point);
-        while (status == FM_OK && next_point(values, of, point->entry));
+            status = add_case(state, point);
+        while (status == FM_OK && next_point(values, state, point->entry));
         if (status != FM_OK)
             break;
     }
@@ -116,24 +116,24 @@ static fm_status expand_methods(expansion *of, fm_plan_point *point)
     return status;
 }
 
-static fm_status expand(expansion *of)
+static fm_status expand(expansion *state)
 {
-    const fm_text_list *devices = &of->chosen.selection.names[FM_LISTED_DEVICES];
-    const fm_text_list *feeds = &of->chosen.selection.names[FM_LISTED_FEEDS];
-    const size_t scene_count = of->chosen.selection.names[FM_LISTED_SCENES].count;
+    const fm_text_list *devices = &state->chosen.selection.names[FM_LISTED_DEVICES];
+    const fm_text_list *feeds = &state->chosen.selection.names[FM_LISTED_FEEDS];
+    const size_t scene_count = state->chosen.selection.names[FM_LISTED_SCENES].count;
     const size_t place_count = scene_count * devices->count * feeds->count;
     fm_status status = FM_OK;
     for (size_t i = 0; status == FM_OK && i < place_count; i++) {
-        const fm_chosen_scene *scene = &of->chosen.scenes[i / (devices->count * feeds->count)];
+        const fm_chosen_scene *scene = &state->chosen.scenes[i / (devices->count * feeds->count)];
         fm_plan_point point = {
             .scene = scene->name,
             .base = &scene->settings,
             .device = devices->items[i / feeds->count % devices->count],
             .feed = feeds->items[i % feeds->count],
-            .selection = &of->chosen.selection,
-            .memo = &of->memo,
+            .selection = &state->chosen.selection,
+            .memo = &state->memo,
         };
-        status = expand_methods(of, &point);
+        status = expand_methods(state, &point);
     }
     return status;
 }
@@ -162,35 +162,36 @@ static void cap_launches(fm_plan *plan)
     plan->launches = most > 0 ? most : plan->launches;
 }
 
-static fm_status expand_all(expansion *of)
+static fm_status expand_all(expansion *state)
 {
-    if (count_cases(&of->chosen) > FM_PLAN_MAX_CASES)
-        return fm_fail(of->err, FM_INVALID, "the axes make more than %d cases", FM_PLAN_MAX_CASES);
-    of->ids = calloc(ID_SLOTS, sizeof *of->ids);
-    return of->ids != NULL ? expand(of) : no_memory(of->err);
+    if (count_cases(&state->chosen) > FM_PLAN_MAX_CASES)
+        return fm_fail(state->err, FM_INVALID, "the axes make more than %d cases",
+                       FM_PLAN_MAX_CASES);
+    state->ids = calloc(ID_SLOTS, sizeof *state->ids);
+    return state->ids != NULL ? expand(state) : no_memory(state->err);
 }
 
 fm_status plan_expand(fm_plan *plan, const fm_plan_request *request, const fm_plugin_list *plugins,
                       fm_error *err)
 {
     fm_error own;
-    expansion of = { .err = err != NULL ? err : &own };
+    expansion state = { .err = err != NULL ? err : &own };
     *plan = (fm_plan){ 0 };
-    fm_status status = chosen_create(&of.chosen, request, plugins, of.err);
+    fm_status status = chosen_create(&state.chosen, request, plugins, state.err);
     if (status == FM_OK)
-        status = expand_all(&of);
+        status = expand_all(&state);
     if (status == FM_OK) {
-        fill_run(plan, &of.chosen.selection);
-        plan->cases = of.cases;
-        plan->count = of.count;
+        fill_run(plan, &state.chosen.selection);
+        plan->cases = state.cases;
+        plan->count = state.count;
         cap_launches(plan);
-        of.cases = NULL;
+        state.cases = NULL;
     }
-    for (size_t i = 0; of.cases != NULL && i < of.count; i++)
-        plan_case_release(&of.cases[i]);
-    free(of.ids);
-    free(of.cases);
-    chosen_destroy(&of.chosen);
+    for (size_t i = 0; state.cases != NULL && i < state.count; i++)
+        plan_case_release(&state.cases[i]);
+    free(state.ids);
+    free(state.cases);
+    chosen_destroy(&state.chosen);
     return status;
 }
 

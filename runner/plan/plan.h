@@ -32,7 +32,7 @@ typedef struct fm_case {
 } fm_case;
 
 /* Whether an axis sets the key. */
-bool case_is_given(const fm_case *of, const fm_key *key);
+bool case_is_given(const fm_case *planned, const fm_key *key);
 
 /* Lists of texts, each ending with NULL. */
 typedef struct fm_plan_request {

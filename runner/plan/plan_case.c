@@ -84,10 +84,10 @@ static fm_status make_settings(fm_settings *settings, const fm_plan_point *point
     return FM_OK;
 }
 
-bool case_is_given(const fm_case *of, const fm_key *key)
+bool case_is_given(const fm_case *planned, const fm_key *key)
 {
     const size_t index = (size_t)(key - fm_keys);
-    return (of->given[index / 64] >> index % 64 & 1u) != 0;
+    return (planned->given[index / 64] >> index % 64 & 1u) != 0;
 }
 
 static void mark_given(fm_case *made, const fm_plan_point *point)

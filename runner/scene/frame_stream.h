@@ -16,12 +16,20 @@
 #include "frames.h"
 
 enum { STREAM_VERSION = 1, STREAM_MAGIC_BYTES = 8 };
-extern const char stream_magic[STREAM_MAGIC_BYTES];
+#define STREAM_MAGIC ((const char[STREAM_MAGIC_BYTES]){ 'f', 'm', 's', 't', 'r', 'e', 'a', 'm' })
 
 typedef struct fm_stream_head {
     char magic[STREAM_MAGIC_BYTES];
     uint32_t version, width_px, height_px, frame_count;
 } fm_stream_head;
+
+/* Before the draw calls and triangles of each frame. */
+typedef struct fm_stream_frame_head {
+    uint32_t clear_colour, clear_depth, draw_count, triangle_count;
+} fm_stream_frame_head;
+_Static_assert(sizeof(fm_stream_head) == 24 && sizeof(fm_stream_frame_head) == 16,
+               "stored as they lie");
+_Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "streams are stored as they lie");
 
 /* Starts as {0}. The file has its name only once it is closed: before, it is PATH.partial. */
 typedef struct fm_stream_writer {

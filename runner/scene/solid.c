@@ -124,7 +124,7 @@ static fm_status fill_cloud(cloud *to, const fm_scene *scene, fm_error *err)
     return scene_mesh(scene, &sink, err);
 }
 
-static fm_status cloud_box(fm_solid *solid, const cloud *of, fm_error *err)
+static fm_status cloud_box(fm_solid *solid, const cloud *points, fm_error *err)
 {
     static const uint32_t corner[BOX_INDICES] = { 0, 1, 2, 2, 1, 3, 4, 6, 5, 5, 6, 7,
                                                   0, 4, 1, 1, 4, 5, 2, 3, 6, 6, 3, 7,
@@ -135,7 +135,7 @@ static fm_status cloud_box(fm_solid *solid, const cloud *of, fm_error *err)
     for (uint32_t i = 0; i < BOX_CORNERS; i++)
         for (int axis = 0; axis < 3; axis++)
             solid->vertices[i].position[axis] =
-                (i >> axis & 1u) != 0 ? of->high[axis] : of->low[axis];
+                (i >> axis & 1u) != 0 ? points->high[axis] : points->low[axis];
     memcpy(solid->indices, corner, sizeof corner);
     return FM_OK;
 }

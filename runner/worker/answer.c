@@ -65,11 +65,11 @@ static void add_passes(json_t *samples, uint32_t frame, const fm_sample *sample,
 }
 
 static void add_frame(json_t *samples, uint32_t frame, const fm_sample *sample,
-                      const fm_answer_desc *of)
+                      const fm_answer_desc *desc)
 {
-    const bool has_passes = of->settings->timers == FM_TIMERS_PASSES;
+    const bool has_passes = desc->settings->timers == FM_TIMERS_PASSES;
     if (has_passes)
-        add_passes(samples, frame, sample, of->method);
+        add_passes(samples, frame, sample, desc->method);
     answer_add_sample(samples, frame, FM_METRIC_FRAME_MS, (double)sample->frame_ns * 1e-6);
     answer_add_sample(samples, frame, FM_METRIC_FRAME_WALL_MS, (double)sample->wall_ns * 1e-6);
     if (has_passes)
@@ -83,20 +83,22 @@ static void add_frame(json_t *samples, uint32_t frame, const fm_sample *sample,
 /* What the k nearest ask for is F_k; what is beyond them may be left out: of it how much was, by
  * the map or by the method's own test, and how many fragments the method took for each that it
  * keeps. */
-static void add_culled(json_t *metrics, const fm_answer_desc *of)
+static void add_culled(json_t *metrics, const fm_answer_desc *desc)
 {
-    const fm_measurement *m = of->measurement;
-    const double all = (double)of->truth->fragment_count;
+    const fm_measurement *m = desc->measurement;
+    const double all = (double)desc->truth->fragment_count;
     const double taken = (double)m->arrived - (double)m->culled;
-    const double kept = (double)truth_kept(of->truth, measure_places(of->method, of->settings->k));
-    if (culling_is_applied(of->method))
-        answer_set_count(metrics, FM_METRIC_CULL_WORDS, of->settings->cull_words);
-    if ((of->stage->feed & FM_FEEDS_FRAGMENTS) == 0) /* no fragments arrive, so none are counted */
+    const double kept =
+        (double)truth_kept(desc->truth, measure_places(desc->method, desc->settings->k));
+    if (culling_is_applied(desc->method))
+        answer_set_count(metrics, FM_METRIC_CULL_WORDS, desc->settings->cull_words);
+    if ((desc->stage->feed & FM_FEEDS_FRAGMENTS) ==
+        0) /* no fragments arrive, so none are counted */
         return;
     answer_set_count(metrics, FM_METRIC_FRAGMENTS_ARRIVED, m->arrived);
     answer_set_count(metrics, FM_METRIC_FRAGMENTS_CULLED, m->culled);
     answer_set_count(metrics, FM_METRIC_LOCKS_TAKEN, m->locked);
-    if (of->method->keeps != FM_KEEPS_K_NEAREST)
+    if (desc->method->keeps != FM_KEEPS_K_NEAREST)
         return;
     if (all > kept)
         answer_set_number(metrics, FM_METRIC_DISCARDED_SHARE, (all - taken) / (all - kept));
@@ -122,15 +124,15 @@ static void add_checked(json_t *metrics, const fm_measurement *m, const fm_truth
     answer_set_number(metrics, FM_METRIC_TOTAL_RMSE, m->total_rmse);
 }
 
-static void add_metrics(json_t *answer, const fm_answer_desc *of)
+static void add_metrics(json_t *answer, const fm_answer_desc *desc)
 {
-    const fm_measurement *m = of->measurement;
+    const fm_measurement *m = desc->measurement;
     json_t *metrics = json_object(), *samples = json_array();
-    answer_set_count(metrics, FM_METRIC_N, of->stage->n);
+    answer_set_count(metrics, FM_METRIC_N, desc->stage->n);
     answer_set_count(metrics, FM_METRIC_BYTES_ALLOCATED, m->bytes_allocated);
     answer_set_count(metrics, FM_METRIC_BYTES_PREDICTED, m->bytes_predicted);
     answer_set_count(metrics, FM_METRIC_BYTES_USED, m->bytes_used);
-    answer_set_count(metrics, FM_METRIC_FRAGMENTS_GENERATED, of->truth->fragment_count);
+    answer_set_count(metrics, FM_METRIC_FRAGMENTS_GENERATED, desc->truth->fragment_count);
     answer_set_count(metrics, FM_METRIC_FRAGMENTS_LOST, m->lost);
     answer_set_count(metrics, FM_METRIC_FRAMES_REDONE, m->frames_redone);
     answer_set_number(metrics, FM_METRIC_REDONE_MS, (double)m->redone_ns * 1e-6);
@@ -139,35 +141,35 @@ static void add_metrics(json_t *answer, const fm_answer_desc *of)
     if (m->k_chosen > 0)
         answer_set_count(metrics, FM_METRIC_K_CHOSEN, m->k_chosen);
     if (m->is_checked) {
-        add_checked(metrics, m, of->truth);
-        add_culled(metrics, of);
+        add_checked(metrics, m, desc->truth);
+        add_culled(metrics, desc);
     }
     for (uint32_t i = 0; i < m->sample_count; i++)
-        add_frame(samples, i, &m->samples[i], of);
+        add_frame(samples, i, &m->samples[i], desc);
     answer_set_image_hash(answer, image_hash(m->image));
     answer_set_measured(answer, metrics, samples);
 }
 
 /* What was allocated and run for this scene, and so what was not. */
-static void add_modelled(json_t *answer, const fm_answer_desc *of)
+static void add_modelled(json_t *answer, const fm_answer_desc *desc)
 {
     json_t *scene = json_array(), *passes = json_array(), *buffers = json_array();
     for (int i = 0; i < STAGE_SLOT_COUNT; i++)
-        if (of->stage->slots[i].buffer != NULL)
-            json_array_append_new(scene, json_string(of->stage->slots[i].name));
-    if (of->stage->vertices != NULL)
+        if (desc->stage->slots[i].buffer != NULL)
+            json_array_append_new(scene, json_string(desc->stage->slots[i].name));
+    if (desc->stage->vertices != NULL)
         json_array_append_new(scene, json_string("vertices"));
-    for (size_t i = 0; i < FM_MAX_PASSES && of->method->passes[i].name != NULL; i++)
-        json_array_append_new(passes, json_string(of->method->passes[i].name));
-    for (size_t i = 0; i < FM_MAX_RESOURCES && of->method->resources[i].name != NULL; i++)
-        json_array_append_new(buffers, json_string(of->method->resources[i].name));
+    for (size_t i = 0; i < FM_MAX_PASSES && desc->method->passes[i].name != NULL; i++)
+        json_array_append_new(passes, json_string(desc->method->passes[i].name));
+    for (size_t i = 0; i < FM_MAX_RESOURCES && desc->method->resources[i].name != NULL; i++)
+        json_array_append_new(buffers, json_string(desc->method->resources[i].name));
     answer_set_modelled(answer, scene, passes, buffers);
 }
 
-void answer_add_measured(json_t *answer, const fm_answer_desc *of)
+void answer_add_measured(json_t *answer, const fm_answer_desc *desc)
 {
-    add_metrics(answer, of);
-    add_modelled(answer, of);
+    add_metrics(answer, desc);
+    add_modelled(answer, desc);
 }
 
 void answer_add_truth(json_t *answer, const fm_truth *truth)

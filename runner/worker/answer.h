@@ -24,7 +24,7 @@ void answer_set_count(json_t *metrics, fm_metric metric, uint64_t value);
 /* One number of a frame: samples is the answer's list of that name. */
 void answer_add_sample(json_t *samples, uint32_t frame, fm_metric metric, double value);
 
-void answer_add_measured(json_t *answer, const fm_answer_desc *of);
+void answer_add_measured(json_t *answer, const fm_answer_desc *desc);
 void answer_add_truth(json_t *answer, const fm_truth *truth);
 
 #endif
