@@ -10,7 +10,7 @@
 
 enum { BOX_CORNERS = 8, BOX_INDICES = 36, QUAD_CORNERS = 4, QUAD_INDICES = 6 };
 
-static fm_status allocate(fm_solid *solid, uint32_t vertices, uint32_t indices, fm_error *err)
+fm_status solid_allocate(fm_solid *solid, uint32_t vertices, uint32_t indices, fm_error *err)
 {
     *solid = (fm_solid){ .vertex_count = vertices, .index_count = indices };
     solid->vertices = calloc(vertices, sizeof solid->vertices[0]);
@@ -27,8 +27,6 @@ void solid_free(fm_solid *solid)
     free(solid->indices);
     *solid = (fm_solid){ 0 };
 }
-
-/* ---- layers ---- */
 
 /* As layers_vertex.glsl evaluates it. */
 static float depth_at(const fm_layer *layer, const float ndc[2])
@@ -62,7 +60,7 @@ static void put_corner(fm_solid *solid, const fm_scene *scene, uint32_t corner)
 static fm_status layers_solid(fm_solid *solid, const fm_scene *scene, fm_error *err)
 {
     static const uint32_t corner[QUAD_INDICES] = { 0, 1, 2, 2, 1, 3 };
-    const fm_status status = allocate(solid, 2 * QUAD_CORNERS, 2 * QUAD_INDICES, err);
+    const fm_status status = solid_allocate(solid, 2 * QUAD_CORNERS, 2 * QUAD_INDICES, err);
     if (status != FM_OK)
         return status;
     for (uint32_t i = 0; i < QUAD_CORNERS; i++)
@@ -82,8 +80,6 @@ static void make_parallel(fm_solid *solid)
     for (uint32_t i = 0; i < solid->vertex_count; i++)
         solid->vertices[i].position[2] = i < QUAD_CORNERS ? least : greatest;
 }
-
-/* ---- meshes ---- */
 
 /* Positions of a mesh's vertices, collected from its blocks. */
 typedef struct cloud {
@@ -129,7 +125,7 @@ static fm_status cloud_box(fm_solid *solid, const cloud *points, fm_error *err)
     static const uint32_t corner[BOX_INDICES] = { 0, 1, 2, 2, 1, 3, 4, 6, 5, 5, 6, 7,
                                                   0, 4, 1, 1, 4, 5, 2, 3, 6, 6, 3, 7,
                                                   0, 2, 4, 4, 2, 6, 1, 5, 3, 3, 5, 7 };
-    const fm_status status = allocate(solid, BOX_CORNERS, BOX_INDICES, err);
+    const fm_status status = solid_allocate(solid, BOX_CORNERS, BOX_INDICES, err);
     if (status != FM_OK)
         return status;
     for (uint32_t i = 0; i < BOX_CORNERS; i++)
@@ -149,7 +145,7 @@ static fm_status take_facets(fm_solid *solid, qhT *qh, double (*points)[3], uint
     vertexT *vertex, **vertexp;
     uint32_t corners = 0, met = 0;
     FORALLfacets corners += 3;
-    const fm_status status = allocate(solid, corners < count ? corners : count, corners, err);
+    const fm_status status = solid_allocate(solid, corners < count ? corners : count, corners, err);
     if (status != FM_OK)
         return status;
     corners = 0;
@@ -245,83 +241,5 @@ fm_status solid_box(fm_solid *solid, const fm_scene *scene, fm_error *err)
     const fm_status status = layers_solid(solid, scene, err);
     if (status == FM_OK)
         make_parallel(solid);
-    return status;
-}
-
-/* ---- file ---- */
-
-typedef struct solid_header {
-    char magic[8]; /* "fmhull1" */
-    uint32_t mesh_vertices, vertices, indices, unused;
-} solid_header;
-_Static_assert(sizeof(solid_header) == 24, "no padding in the file");
-
-static const char magic[8] = "fmhull1";
-#define FILE_MAX_BYTES ((size_t)1 << 30)
-
-static size_t file_bytes(const solid_header *header)
-{
-    return sizeof *header + (size_t)header->vertices * sizeof(fm_vertex) +
-           (size_t)header->indices * sizeof(uint32_t);
-}
-
-static bool is_sound(const char *bytes, size_t count, const solid_header *header,
-                     const fm_scene *scene)
-{
-    if (memcmp(header->magic, magic, sizeof magic) != 0 ||
-        header->mesh_vertices != scene->vertex_count || count != file_bytes(header) ||
-        header->indices % 3 != 0)
-        return false;
-    const char *indices = bytes + sizeof *header + (size_t)header->vertices * sizeof(fm_vertex);
-    for (uint32_t i = 0; i < header->indices; i++) {
-        uint32_t index;
-        memcpy(&index, indices + i * sizeof index, sizeof index);
-        if (index >= header->vertices)
-            return false;
-    }
-    return true;
-}
-
-fm_status solid_read(fm_solid *solid, const char *path, const fm_scene *scene, fm_error *err)
-{
-    char *bytes = NULL;
-    size_t count = 0;
-    solid_header header = { .indices = 0 };
-    *solid = (fm_solid){ 0 };
-    fm_status status = text_read_file(&bytes, &count, path, FILE_MAX_BYTES, err);
-    if (status != FM_OK)
-        return status;
-    if (count >= sizeof header)
-        memcpy(&header, bytes, sizeof header);
-    if (!is_sound(bytes, count, &header, scene))
-        status = fm_fail(err, FM_INVALID, "%s: not the hull of a mesh of %u vertices", path,
-                         scene->vertex_count);
-    if (status == FM_OK)
-        status = allocate(solid, header.vertices, header.indices, err);
-    if (status == FM_OK) {
-        memcpy(solid->vertices, bytes + sizeof header, header.vertices * sizeof(fm_vertex));
-        memcpy(solid->indices, bytes + sizeof header + header.vertices * sizeof(fm_vertex),
-               header.indices * sizeof(uint32_t));
-    }
-    free(bytes);
-    return status;
-}
-
-fm_status solid_write(const fm_solid *solid, const char *path, const fm_scene *scene, fm_error *err)
-{
-    solid_header header = { .mesh_vertices = scene->vertex_count,
-                            .vertices = solid->vertex_count,
-                            .indices = solid->index_count };
-    memcpy(header.magic, magic, sizeof magic);
-    const size_t count = file_bytes(&header);
-    char *bytes = malloc(count);
-    if (bytes == NULL)
-        return fm_fail(err, FM_NO_MEMORY, "%s: %zu bytes", path, count);
-    memcpy(bytes, &header, sizeof header);
-    memcpy(bytes + sizeof header, solid->vertices, solid->vertex_count * sizeof(fm_vertex));
-    memcpy(bytes + sizeof header + solid->vertex_count * sizeof(fm_vertex), solid->indices,
-           solid->index_count * sizeof(uint32_t));
-    const fm_status status = text_write_file(path, bytes, count, err);
-    free(bytes);
     return status;
 }

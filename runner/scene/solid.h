@@ -19,6 +19,8 @@ typedef struct fm_solid {
 fm_status solid_hull(fm_solid *solid, const fm_scene *scene, fm_error *err);
 /* The bounding box; of layers the two faces of one depth that it shows. */
 fm_status solid_box(fm_solid *solid, const fm_scene *scene, fm_error *err);
+/* Room for a solid; FM_NO_MEMORY. Whoever allocates frees. */
+fm_status solid_allocate(fm_solid *solid, uint32_t vertices, uint32_t indices, fm_error *err);
 void solid_free(fm_solid *solid);
 
 /* A file that keeps a mesh's hull. solid_read: FM_IO, FM_INVALID: not there, damaged, or of a mesh
