@@ -18,18 +18,6 @@ const fm_device_ops *const fm_device_table[] = {
     &tbr_device,    &dummy_device, NULL,
 };
 
-void ledger_add(fm_ledger *ledger, fm_owner owner, uint64_t bytes)
-{
-    ledger->bytes[owner] += bytes;
-    if (ledger->bytes[owner] > ledger->peak_bytes[owner])
-        ledger->peak_bytes[owner] = ledger->bytes[owner];
-}
-
-void ledger_remove(fm_ledger *ledger, fm_owner owner, uint64_t bytes)
-{
-    ledger->bytes[owner] -= bytes;
-}
-
 const fm_device_ops *device_find(const char *name)
 {
     const size_t length = strcspn(name, ":");

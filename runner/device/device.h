@@ -17,6 +17,7 @@
 
 #include "base/error.h"
 #include "fragmark/method.h"
+#include "ledger.h"
 
 typedef struct fm_device fm_device;
 typedef struct fm_buffer fm_buffer;
@@ -62,19 +63,6 @@ typedef struct fm_device_entry {
     char selector[32]; /* what --device takes: "vulkan:0" */
     char name[128];
 } fm_device_entry;
-
-typedef enum fm_owner {
-    FM_OWNER_RUNNER, /* output, truth, scene, counters */
-    FM_OWNER_METHOD, /* booked as the method's bytes */
-    FM_OWNER_COUNT
-} fm_owner;
-
-/* Bytes asked for and not yet given back, and the most at any time. Sizes as asked: alignment and
- * the driver's own needs are not in it. */
-typedef struct fm_ledger {
-    uint64_t bytes[FM_OWNER_COUNT];
-    uint64_t peak_bytes[FM_OWNER_COUNT];
-} fm_ledger;
 
 typedef struct fm_buffer_desc {
     const char *name;
@@ -276,8 +264,5 @@ typedef struct fm_shader_fault {
 fm_status device_fail_shader(fm_error *err, const fm_shader_fault *fault);
 /* FM_UNSUPPORTED: more workgroups than the device has. */
 fm_status device_check_groups(const fm_device *device, const fm_dispatch *dispatch, fm_error *err);
-/* Bookkeeping. */
-void ledger_add(fm_ledger *ledger, fm_owner owner, uint64_t bytes);
-void ledger_remove(fm_ledger *ledger, fm_owner owner, uint64_t bytes);
 
 #endif
