@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "device/dummy/dummy.h"
 #include "device/osmesa/osmesa.h"
+#include "device/selector.h"
 #include "device/vulkan/vulkan.h"
 #include "simulator/device.h"
 
@@ -32,16 +33,6 @@ uint32_t device_feeds(const fm_device_ops *ops)
     return ops->feeds != 0 ? ops->feeds : FM_FEEDS_FRAGMENTS | FM_FEED_TRIANGLES;
 }
 
-bool device_is_selected(size_t index, const char *name, const char *selector)
-{
-    uint64_t wanted = 0;
-    if (selector == NULL || selector[0] == '\0')
-        return true;
-    if (text_to_u64(&wanted, selector))
-        return wanted == index;
-    return strcasestr(name, selector) != NULL;
-}
-
 fm_status device_expect(const char *name, fm_error *err)
 {
     const fm_device_ops *ops = device_find(name);
@@ -52,7 +43,7 @@ fm_status device_expect(const char *name, fm_error *err)
     if (ops == NULL || colon == NULL || ops->list(entries, &count, NULL) != FM_OK || count == 0)
         return FM_OK;
     for (size_t i = 0; i < count; i++) {
-        if (device_is_selected(i, entries[i].name, colon + 1)) {
+        if (selector_matches(colon + 1, i, entries[i].name)) {
             text_free(&there);
             return FM_OK;
         }

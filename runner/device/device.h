@@ -237,9 +237,6 @@ extern const fm_device_ops *const fm_device_table[];
 
 /* The table of the device that a name such as "vulkan:1" begins with; NULL: none. */
 const fm_device_ops *device_find(const char *name);
-/* Whether the selector of a name ("vulkan:INDEX|PART OF ITS NAME") means this one of a driver's
- * devices; NULL or empty: any. */
-bool device_is_selected(size_t index, const char *name, const char *selector);
 /* FM_INVALID, naming those there are, if "vulkan:7" is not among the devices of its driver. FM_OK
  * if it is, and where nothing can be said: no selector, no driver. */
 fm_status device_expect(const char *name, fm_error *err);
@@ -250,19 +247,5 @@ uint32_t device_feeds(const fm_device_ops *ops);
 fm_status device_open(fm_device **device, const char *name, const fm_device_desc *desc,
                       fm_error *err);
 void device_close(fm_device *device);
-
-/* What follows is for implementations. */
-
-/* GLSL that does not compile. */
-typedef struct fm_shader_fault {
-    const char *pipeline, *stage; /* "kplus-array: store", "fragment" */
-    const char *source;           /* as it was handed in */
-    const char *log;              /* the compiler's words */
-    unsigned line; /* of the source, from 1, that they speak of; 0: they do not say */
-} fm_shader_fault;
-/* Fills *err with all of it, quoting the line, and returns FM_SHADER. */
-fm_status device_fail_shader(fm_error *err, const fm_shader_fault *fault);
-/* FM_UNSUPPORTED: more workgroups than the device has. */
-fm_status device_check_groups(const fm_device *device, const fm_dispatch *dispatch, fm_error *err);
 
 #endif

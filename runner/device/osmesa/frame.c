@@ -2,6 +2,7 @@
 
 #include "base/clock.h"
 #include "context.h"
+#include "device/dispatch.h"
 
 fm_status osmesa_frame_begin(fm_device *device, fm_error *err)
 {
@@ -120,7 +121,7 @@ void osmesa_bind(const fm_gl *gl, const fm_bind *binds, uint32_t count)
 fm_status osmesa_dispatch(fm_device *device, const fm_dispatch *dispatch, fm_error *err)
 {
     const fm_gl *gl = &osmesa_current(device)->gl;
-    const fm_status status = device_check_groups(device, dispatch, err);
+    const fm_status status = dispatch_check_groups(device, dispatch, err);
     if (status != FM_OK)
         return status;
     gl->MemoryBarrier(GL_ALL_BARRIER_BITS);

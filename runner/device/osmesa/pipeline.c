@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "context.h"
+#include "device/shader_fault.h"
 
 enum { LOG_MAX_BYTES = 1024 };
 

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "context.h"
+#include "device/dispatch.h"
 
 enum { UPDATE_MAX_BYTES = 65536 };
 
@@ -62,7 +63,7 @@ fm_status vulkan_dispatch(fm_device *device, const fm_dispatch *dispatch, fm_err
     vulkan *self = (vulkan *)device;
     const VkCommandBuffer commands = self->frame_commands;
     VkMemoryBarrier2 barrier = vulkan_barrier_begin();
-    fm_status status = device_check_groups(device, dispatch, err);
+    fm_status status = dispatch_check_groups(device, dispatch, err);
     if (status == FM_OK)
         status = vulkan_descriptors_bind(self, dispatch->pipeline, dispatch->binds,
                                          dispatch->bind_count, err);

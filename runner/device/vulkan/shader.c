@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "context.h"
+#include "device/shader_fault.h"
 
 #define SOURCE_NAME "glsl" /* messages begin with it: "glsl:LINE: error: ..." */
 

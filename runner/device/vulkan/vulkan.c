@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/text.h"
 #include "context.h"
+#include "device/selector.h"
 
 typedef struct result_traits {
     VkResult result;
@@ -69,7 +69,7 @@ static bool matches(VkPhysicalDevice physical, size_t index, const char *selecto
 {
     VkPhysicalDeviceProperties properties;
     vkGetPhysicalDeviceProperties(physical, &properties);
-    return device_is_selected(index, properties.deviceName, selector);
+    return selector_matches(selector, index, properties.deviceName);
 }
 
 static fm_status fail_choice(fm_error *err, const VkPhysicalDevice *found, size_t count,

@@ -1,8 +1,7 @@
-/* What devices of an API have in common. */
+#include "shader_fault.h"
+
 #include <stdio.h>
 #include <string.h>
-
-#include "device.h"
 
 enum { LOG_MAX_BYTES = 1024, QUOTE_MAX_BYTES = 200 }; /* so that both fit into an fm_error */
 
@@ -29,14 +28,4 @@ fm_status device_fail_shader(fm_error *err, const fm_shader_fault *fault)
     quote_line(quote, fault->source, fault->line);
     return fm_fail(err, FM_SHADER, "%s: %s shader, line %u: '%s'\n%.*s", fault->pipeline,
                    fault->stage, fault->line, quote, LOG_MAX_BYTES, fault->log);
-}
-
-fm_status device_check_groups(const fm_device *device, const fm_dispatch *dispatch, fm_error *err)
-{
-    const uint32_t *most = device->caps.max_groups;
-    for (int axis = 0; axis < 3 && dispatch->indirect == NULL; axis++)
-        if (dispatch->groups[axis] > most[axis])
-            return fm_fail(err, FM_UNSUPPORTED, "dispatch: %u groups, this device's most are %u",
-                           dispatch->groups[axis], most[axis]);
-    return FM_OK;
 }
