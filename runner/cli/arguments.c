@@ -222,6 +222,7 @@ fm_status arguments_expand(fm_plan *plan, const fm_plugin_list *plugins,
                            const fm_arguments *arguments, const char *spec, fm_error *err)
 {
     const fm_plan_request request = {
+        .known_devices = arguments->cli->devices,
         .spec = spec,
         .methods = names_list(&arguments->methods),
         .scenes = names_list(&arguments->scenes),

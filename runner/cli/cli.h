@@ -1,5 +1,4 @@
-/* What the subcommands share. They write data to `out` and talk to `talk`; both come from main.c.
- */
+/* What the subcommands share. They write data to `out` and talk to `talk`. */
 #ifndef FM_CLI_H
 #define FM_CLI_H
 
@@ -10,6 +9,7 @@
 #include <stdio.h>
 
 #include "base/error.h"
+#include "device/registry.h"
 #include "plan/plan.h"
 
 enum {
@@ -29,8 +29,10 @@ enum {
     "method); 5 incomplete: the run's own files failed, and the same command continues it; "       \
     "8 damaged or foreign file; 130, 143 interrupted: the same command continues it."
 
+/* What main.c hands to every subcommand. */
 typedef struct fm_cli {
     FILE *out, *talk;
+    const fm_device_list *devices; /* those of the program */
 } fm_cli;
 
 /* One subcommand; argv[0] is "fragmark NAME". Returns the exit code. */

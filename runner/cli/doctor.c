@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include "cli.h"
-#include "device/device.h"
 #include "parent/machine.h"
 #include "scene/scene_file.h"
 
@@ -88,33 +87,34 @@ static json_t *caps_json(const char *selector, const fm_device_caps *caps)
         "timestamp_ns", caps->timestamp_ns);
 }
 
-static json_t *device_json(const char *selector)
+static json_t *device_json(const fm_device_list *devices, const char *selector)
 {
     fm_device *device = NULL;
     fm_error err = { 0 };
     const fm_device_desc desc = { 0 };
-    if (device_open(&device, selector, &desc, &err) != FM_OK)
+    if (device_open(&device, devices, selector, &desc, &err) != FM_OK)
         return json_pack("{s:s, s:s}", "selector", selector, "error", err.message);
     json_t *row = caps_json(selector, &device->caps);
     device_close(device);
     return row;
 }
 
-static json_t *devices_json(void)
+static json_t *devices_json(const fm_device_list *devices)
 {
     json_t *rows = json_array();
-    for (const fm_device_ops *const *ops = fm_device_table; *ops != NULL; ops++) {
+    for (size_t d = 0; d < devices->count; d++) {
+        const fm_device_ops *ops = devices->devices[d];
         fm_device_entry entries[DEVICES_MAX];
         size_t count = DEVICES_MAX;
         fm_error err = { 0 };
-        const fm_status status = (*ops)->list(entries, &count, &err);
+        const fm_status status = ops->list(entries, &count, &err);
         for (size_t i = 0; status == FM_OK && i < count && i < DEVICES_MAX; i++)
-            json_array_append_new(rows, device_json(entries[i].selector));
+            json_array_append_new(rows, device_json(devices, entries[i].selector));
         if (status != FM_OK || count == 0)
             json_array_append_new(rows,
-                                  json_pack("{s:s, s:s, s:s}", "selector", (*ops)->name, "error",
+                                  json_pack("{s:s, s:s, s:s}", "selector", ops->name, "error",
                                             err.message[0] != '\0' ? err.message : "no device",
-                                            "remedy", remedy((*ops)->name)));
+                                            "remedy", remedy(ops->name)));
     }
     return rows;
 }
@@ -186,16 +186,16 @@ static json_t *figures_facts(void)
     return facts;
 }
 
-static json_t *facts_json(void)
+static json_t *facts_json(const fm_device_list *devices)
 {
     char program[FM_PATH_MAX_BYTES] = "", report[FM_PATH_MAX_BYTES];
     if (program_folder(program, NULL) != FM_OK)
         snprintf(program, sizeof program, "unknown");
     return json_pack("{s:s, s:o, s:o, s:b, s:s, s:o, s:o, s:o, s:s?}", "fragmark", FM_VERSION,
-                     "machine", machine_facts(), "devices", devices_json(), "validation_layer",
-                     (int)has_validation_layer(), "program", program, "methods", methods_facts(),
-                     "scenes", scenes_facts(), "figures", figures_facts(), "report",
-                     report_find(report) ? report : NULL);
+                     "machine", machine_facts(), "devices", devices_json(devices),
+                     "validation_layer", (int)has_validation_layer(), "program", program, "methods",
+                     methods_facts(), "scenes", scenes_facts(), "figures", figures_facts(),
+                     "report", report_find(report) ? report : NULL);
 }
 
 static const char *text_of(const json_t *object, const char *key)
@@ -316,7 +316,7 @@ int cli_doctor(const fm_cli *cli, int argc, char **argv)
 {
     bool json = false;
     argp_parse(&argp, argc, argv, 0, NULL, &json);
-    json_t *facts = facts_json();
+    json_t *facts = facts_json(cli->devices);
     const int code = can_measure(facts) ? CLI_DONE : CLI_NOTHING;
     if (json)
         cli_print_json(cli, json_incref(facts));

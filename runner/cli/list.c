@@ -1,7 +1,6 @@
 #include <string.h>
 
 #include "cli.h"
-#include "device/device.h"
 #include "list_markdown.h"
 #include "list_metrics.h"
 #include "model/feeds.h"
@@ -118,12 +117,13 @@ static int list_devices(const list_arguments *arguments)
 {
     const fm_cli *cli = arguments->cli;
     json_t *rows = json_array();
-    for (const fm_device_ops *const *ops = fm_device_table; *ops != NULL; ops++) {
+    for (size_t d = 0; d < cli->devices->count; d++) {
+        const fm_device_ops *ops = cli->devices->devices[d];
         fm_device_entry entries[DEVICES_MAX];
         size_t count = DEVICES_MAX;
         fm_error err = { 0 };
-        if ((*ops)->list(entries, &count, &err) != FM_OK) {
-            fprintf(cli->talk, "%s: %s\n", (*ops)->name, err.message);
+        if (ops->list(entries, &count, &err) != FM_OK) {
+            fprintf(cli->talk, "%s: %s\n", ops->name, err.message);
             continue;
         }
         for (size_t i = 0; i < count && i < DEVICES_MAX; i++) {

@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include "cli.h"
-#include "device/device.h"
 
 static const struct argp argp = {
     .parser = cli_parse_spec,
@@ -129,12 +128,12 @@ static void tell_continued(const fm_arguments *arguments, const char *directory)
 }
 
 /* A plan may be for another machine; a run is for this one. */
-static fm_status expect_devices(const fm_plan *plan, fm_error *err)
+static fm_status expect_devices(const fm_device_list *devices, const fm_plan *plan, fm_error *err)
 {
     fm_status status = FM_OK;
     for (size_t i = 0; i < plan->count && status == FM_OK; i++)
         if (i == 0 || strcmp(plan->cases[i].device, plan->cases[i - 1].device) != 0)
-            status = device_expect(plan->cases[i].device, err);
+            status = device_expect(devices, plan->cases[i].device, err);
     return status;
 }
 
@@ -161,7 +160,7 @@ int cli_run_plan(const fm_arguments *arguments, const cli_run_desc *desc)
         .progress = arguments->quiet ? NULL : arguments->cli->talk,
         .figures = desc->figures,
     };
-    if (expect_devices(desc->plan, &err) != FM_OK)
+    if (expect_devices(arguments->cli->devices, desc->plan, &err) != FM_OK)
         return cli_fail(arguments->cli, &err);
     tell_continued(arguments, desc->directory);
     if (run_cases(&result, desc->plan, desc->plugins, &run, &err) != FM_OK ||

@@ -232,20 +232,4 @@ struct fm_device {
     fm_ledger ledger;
 };
 
-/* All devices of this build, ending with NULL; "vulkan" stands first. */
-extern const fm_device_ops *const fm_device_table[];
-
-/* The table of the device that a name such as "vulkan:1" begins with; NULL: none. */
-const fm_device_ops *device_find(const char *name);
-/* FM_INVALID, naming those there are, if "vulkan:7" is not among the devices of its driver. FM_OK
- * if it is, and where nothing can be said: no selector, no driver. */
-fm_status device_expect(const char *name, fm_error *err);
-/* What the device takes. */
-uint32_t device_feeds(const fm_device_ops *ops);
-/* Opens "vulkan", "vulkan:1", "vulkan:llvmpipe", "osmesa", "dummy". FM_INVALID: no such device,
- * with the nearest name. */
-fm_status device_open(fm_device **device, const char *name, const fm_device_desc *desc,
-                      fm_error *err);
-void device_close(fm_device *device);
-
 #endif

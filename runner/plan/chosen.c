@@ -4,12 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "device/device.h"
 #include "model/feeds.h"
 #include "plan_case.h"
 #include "scene/scene_file.h"
-
-enum { DEVICES_MAX = 16 };
 
 static fm_status no_memory(fm_error *err)
 {
@@ -127,15 +124,20 @@ static fm_status unknown(const char *origin, const char *what, const char *name,
                    nearest != NULL ? "'" : "");
 }
 
-static fm_status check_device(const char *name, const char *origin, fm_error *err)
+static fm_status find_devices(fm_chosen *chosen, const fm_device_list *known, fm_error *err)
 {
-    const char *known[DEVICES_MAX];
-    size_t count = 0;
-    if (device_find(name) != NULL)
-        return FM_OK;
-    for (; count < DEVICES_MAX && fm_device_table[count] != NULL; count++)
-        known[count] = fm_device_table[count]->name;
-    return unknown(origin, "device", name, text_nearest(name, known, count), err);
+    const fm_text_list *names = &chosen->selection.names[FM_LISTED_DEVICES];
+    chosen->devices = calloc(names->count, sizeof *chosen->devices);
+    if (chosen->devices == NULL)
+        return no_memory(err);
+    for (size_t i = 0; i < names->count; i++) {
+        const char *name = names->items[i];
+        chosen->devices[i] = device_find(known, name);
+        if (chosen->devices[i] == NULL)
+            return unknown(chosen->selection.origins[FM_LISTED_DEVICES].items[i], "device", name,
+                           device_nearest(known, name), err);
+    }
+    return FM_OK;
 }
 
 static fm_status check_feed(const char *name, const char *origin, fm_error *err)
@@ -147,14 +149,13 @@ static fm_status check_feed(const char *name, const char *origin, fm_error *err)
     return unknown(origin, "feed", name, text_nearest(name, known, count), err);
 }
 
-static fm_status check_list(fm_chosen *chosen, fm_listed list,
-                            fm_status (*check)(const char *, const char *, fm_error *),
-                            fm_error *err)
+static fm_status check_feeds(fm_chosen *chosen, fm_error *err)
 {
-    const fm_text_list *names = &chosen->selection.names[list];
+    const fm_text_list *names = &chosen->selection.names[FM_LISTED_FEEDS];
+    const fm_text_list *origins = &chosen->selection.origins[FM_LISTED_FEEDS];
     fm_status status = FM_OK;
     for (size_t i = 0; status == FM_OK && i < names->count; i++)
-        status = check(names->items[i], chosen->selection.origins[list].items[i], err);
+        status = check_feed(names->items[i], origins->items[i], err);
     return status;
 }
 
@@ -249,21 +250,21 @@ static fm_status check_sweep(const fm_chosen *chosen, const fm_sweep *sweep, fm_
 /* The feed of runs that name none. */
 static const char *usual_feed(const fm_chosen *chosen)
 {
-    const char *first = chosen->selection.names[FM_LISTED_DEVICES].items[0];
-    return device_feeds(device_find(first)) == FM_FEED_FRAMES ? "frames" : "raster";
+    return device_feeds(chosen->devices[0]) == FM_FEED_FRAMES ? "frames" : "raster";
 }
 
-static fm_status look_up(fm_chosen *chosen, const fm_plugin_list *plugins, fm_error *err)
+static fm_status look_up(fm_chosen *chosen, const fm_device_list *known_devices,
+                         const fm_plugin_list *plugins, fm_error *err)
 {
     fm_status status = fill_list(chosen, FM_LISTED_SCENES, "layers", err);
     if (status == FM_OK)
         status = fill_list(chosen, FM_LISTED_DEVICES, "vulkan", err);
     if (status == FM_OK)
-        status = check_list(chosen, FM_LISTED_DEVICES, check_device, err);
+        status = find_devices(chosen, known_devices, err);
     if (status == FM_OK)
         status = fill_list(chosen, FM_LISTED_FEEDS, usual_feed(chosen), err);
     if (status == FM_OK)
-        status = check_list(chosen, FM_LISTED_FEEDS, check_feed, err);
+        status = check_feeds(chosen, err);
     if (status == FM_OK)
         status = find_methods(chosen, plugins, err);
     if (status == FM_OK)
@@ -279,7 +280,7 @@ fm_status chosen_create(fm_chosen *chosen, const fm_plan_request *request,
     *chosen = (fm_chosen){ 0 };
     fm_status status = selection_read(&chosen->selection, request, err);
     if (status == FM_OK)
-        status = look_up(chosen, plugins, err);
+        status = look_up(chosen, request->known_devices, plugins, err);
     if (status != FM_OK)
         chosen_destroy(chosen);
     return status;
@@ -287,6 +288,7 @@ fm_status chosen_create(fm_chosen *chosen, const fm_plan_request *request,
 
 void chosen_destroy(fm_chosen *chosen)
 {
+    free(chosen->devices);
     free(chosen->scenes);
     free(chosen->methods);
     selection_free(&chosen->selection);

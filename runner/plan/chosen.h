@@ -10,12 +10,13 @@ typedef struct fm_chosen_scene {
     fm_settings settings; /* of its file; not finished */
 } fm_chosen_scene;
 
-/* The count of scenes is that of their names in the selection. */
+/* The counts of scenes and devices are those of their names in the selection. */
 typedef struct fm_chosen {
     fm_selection selection; /* lists that were left open hold their defaults */
     const fm_plugin_entry **methods;
     size_t method_count;
     fm_chosen_scene *scenes;
+    const fm_device_ops **devices;
 } fm_chosen;
 
 /* FM_INVALID, with where it was written and the nearest legal name: unknown methods, scenes,

@@ -125,10 +125,12 @@ static fm_status expand(expansion *state)
     fm_status status = FM_OK;
     for (size_t i = 0; status == FM_OK && i < place_count; i++) {
         const fm_chosen_scene *scene = &state->chosen.scenes[i / (devices->count * feeds->count)];
+        const size_t device = i / feeds->count % devices->count;
         fm_plan_point point = {
             .scene = scene->name,
             .base = &scene->settings,
-            .device = devices->items[i / feeds->count % devices->count],
+            .device = devices->items[device],
+            .ops = state->chosen.devices[device],
             .feed = feeds->items[i % feeds->count],
             .selection = &state->chosen.selection,
             .memo = &state->memo,

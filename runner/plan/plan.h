@@ -6,6 +6,7 @@
 #include <stddef.h>
 
 #include "base/error.h"
+#include "device/registry.h"
 #include "model/descriptor.h"
 #include "model/outcome.h"
 #include "model/settings.h"
@@ -36,8 +37,9 @@ bool case_is_given(const fm_case *planned, const fm_key *key);
 
 /* Lists of texts, each ending with NULL. */
 typedef struct fm_plan_request {
-    const char *spec;           /* YAML file; NULL: none */
-    const char *const *methods; /* ids; empty or "all": all that are not controls */
+    const fm_device_list *known_devices; /* what the names in `devices` are looked up among */
+    const char *spec;                    /* YAML file; NULL: none */
+    const char *const *methods;          /* ids; empty or "all": all that are not controls */
     const char *const *scenes;  /* names in the scene folders or paths of .yml; empty: "layers" */
     const char *const *devices; /* empty: "vulkan" */
     const char *const *feeds;   /* empty: "raster" */

@@ -5,7 +5,6 @@
 #include <string.h>
 #include <xxhash.h>
 
-#include "device/device.h"
 #include "model/feeds.h"
 #include "plugin/culling_apply.h"
 
@@ -132,8 +131,9 @@ static void list_names(fm_text *why, const char *const *names, size_t count)
 
 /* Why a case cannot run, one reason a function, which adds to *why; nothing, if it can. */
 
-static void refuse_feed(fm_text *why, const fm_case *made, const fm_method_desc *method)
+static void refuse_feed(fm_text *why, const fm_case *made, const fm_plan_point *point)
 {
+    const fm_method_desc *method = point->entry->plugin->method;
     const char *taken[FM_FEED_COUNT + 1];
     const size_t count = feed_names(taken, method_feeds(method));
     if ((method_feeds(method) & feed_from_name(made->feed)) != 0)
@@ -144,21 +144,20 @@ static void refuse_feed(fm_text *why, const fm_case *made, const fm_method_desc 
 
 /* Frames are for their own device and from their own generator, fragments for and from all others.
  */
-static void refuse_place(fm_text *why, const fm_case *made, const fm_method_desc *method)
+static void refuse_place(fm_text *why, const fm_case *made, const fm_plan_point *point)
 {
-    (void)method;
     const uint32_t feed = feed_from_name(made->feed);
     const bool has_frames = generator_makes_frames(made->settings.generator);
-    const fm_device_ops *ops = device_find(made->device);
-    if (ops != NULL && (device_feeds(ops) & feed) == 0)
-        text_add(why, "feed '%s': device %s does not take it", made->feed, ops->name);
+    if ((device_feeds(point->ops) & feed) == 0)
+        text_add(why, "feed '%s': device %s does not take it", made->feed, point->ops->name);
     else if (has_frames != (feed == FM_FEED_FRAMES))
         text_add(why, "feed '%s': the scene is made of %s", made->feed,
                  has_frames ? "frames" : "fragments");
 }
 
-static void refuse_k(fm_text *why, const fm_case *made, const fm_method_desc *method)
+static void refuse_k(fm_text *why, const fm_case *made, const fm_plan_point *point)
 {
+    const fm_method_desc *method = point->entry->plugin->method;
     const uint32_t k = made->settings.k;
     if (!plugin_has_k(method))
         return;
@@ -168,8 +167,9 @@ static void refuse_k(fm_text *why, const fm_case *made, const fm_method_desc *me
         text_add(why, "k = %u: the method's largest is %u", k, method->k_max);
 }
 
-static void refuse_choice(fm_text *why, const fm_case *made, const fm_method_desc *method)
+static void refuse_choice(fm_text *why, const fm_case *made, const fm_plan_point *point)
 {
+    const fm_method_desc *method = point->entry->plugin->method;
     for (size_t i = 0; i < made->choice_count; i++) {
         const fm_choice *choice = &made->choices[i];
         const fm_option *option = option_find(method, choice->name);
@@ -181,20 +181,21 @@ static void refuse_choice(fm_text *why, const fm_case *made, const fm_method_des
     }
 }
 
-static void refuse_culling(fm_text *why, const fm_case *made, const fm_method_desc *method)
+static void refuse_culling(fm_text *why, const fm_case *made, const fm_plan_point *point)
 {
+    const fm_method_desc *method = point->entry->plugin->method;
     fm_error err;
     if (culling_check(method, &made->settings, feed_from_name(made->feed), &err) != FM_OK)
         text_add(why, "%s", err.message);
 }
 
-static void refuse_method(fm_text *why, const fm_case *made, const fm_method_desc *method)
+static void refuse_method(fm_text *why, const fm_case *made, const fm_plan_point *point)
 {
-    static void (*const reasons[])(fm_text *, const fm_case *, const fm_method_desc *) = {
+    static void (*const reasons[])(fm_text *, const fm_case *, const fm_plan_point *) = {
         refuse_feed, refuse_place, refuse_k, refuse_choice, refuse_culling,
     };
     for (size_t i = 0; i < sizeof reasons / sizeof reasons[0] && why->length == 0; i++)
-        reasons[i](why, made, method);
+        reasons[i](why, made, point);
 }
 
 static void remember_mesh(fm_mesh_memo *memo, const char *path)
@@ -215,7 +216,7 @@ static fm_status make_skip(fm_case *made, const fm_plan_point *point, fm_error *
     if (entry->plugin == NULL)
         text_add(&why, "%s", entry->error.message);
     else
-        refuse_method(&why, made, entry->plugin->method);
+        refuse_method(&why, made, point);
     if (why.length == 0 && has_file && point->memo->error.status != FM_OK)
         text_add(&why, "%s: %s", settings_file_key(&made->settings), point->memo->error.message);
     made->skip = why.bytes;

@@ -16,7 +16,8 @@ typedef struct fm_mesh_memo {
 typedef struct fm_plan_point {
     const fm_plugin_entry *entry;
     const char *scene, *device, *feed;
-    const fm_settings *base; /* the scene's own */
+    const fm_device_ops *ops; /* of the device */
+    const fm_settings *base;  /* the scene's own */
     const fm_selection *selection;
     const size_t *values; /* [sweep_count]: which value of each axis */
     fm_mesh_memo *memo;   /* starts as {0} */

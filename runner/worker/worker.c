@@ -6,7 +6,6 @@
 
 #include "answer.h"
 #include "capture/truth_capture.h"
-#include "device/device.h"
 #include "generators/generate.h"
 #include "measure.h"
 #include "model/feeds.h"
@@ -17,6 +16,7 @@
 
 /* Everything a launch holds. */
 typedef struct launch_job {
+    const fm_device_list *devices;
     fm_read_request read;
     const fm_request *request; /* in `read` */
     json_t *answer;
@@ -56,7 +56,8 @@ static fm_status open_device(launch_job *job)
 {
     const fm_device_desc desc = { .validation = job->request->validation,
                                   .no_timers = job->request->no_timers };
-    fm_status status = device_open(&job->device, job->request->device, &desc, &job->error);
+    fm_status status =
+        device_open(&job->device, job->devices, job->request->device, &desc, &job->error);
     if (status != FM_OK)
         return not_the_plugins(status);
     answer_set_device(job->answer, &job->device->caps);
@@ -322,9 +323,9 @@ static fm_case_status case_status_of(launch_job *job, fm_status status)
     return status == FM_OK && is_wrong(job) ? FM_CASE_WRONG_IMAGE : verdict(job, status);
 }
 
-int worker_main(const char *request_path, const char *answer_path)
+int worker_main(const char *request_path, const char *answer_path, const fm_device_list *devices)
 {
-    launch_job job = { .answer = json_object() };
+    launch_job job = { .devices = devices, .answer = json_object() };
     job.request = &job.read.request;
     fm_status status = request_read(&job.read, request_path, &job.error);
     job.settings = job.read.settings;

@@ -5,7 +5,10 @@
 #ifndef FM_WORKER_H
 #define FM_WORKER_H
 
-/* The whole life of a worker process. Returns its exit status: 0 when the answer was written. */
-int worker_main(const char *request_path, const char *answer_path);
+#include "device/registry.h"
+
+/* The whole life of a worker process, which opens the request's device among `devices`. Returns its
+ * exit status: 0 when the answer was written. */
+int worker_main(const char *request_path, const char *answer_path, const fm_device_list *devices);
 
 #endif

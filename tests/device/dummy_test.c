@@ -7,12 +7,16 @@
 #include <cmocka.h>
 
 #include "device/dummy/dummy.h"
+#include "device/registry.h"
+
+static const fm_device_ops *const built[] = { &dummy_device };
+static const fm_device_list dummy_alone = { .devices = built, .count = 1 };
 
 static fm_device *open_dummy(const char *name)
 {
     fm_device *device = NULL;
     const fm_device_desc desc = { .no_timers = false };
-    assert_int_equal(device_open(&device, name, &desc, NULL), FM_OK);
+    assert_int_equal(device_open(&device, &dummy_alone, name, &desc, NULL), FM_OK);
     return device;
 }
 
@@ -149,7 +153,7 @@ static void dummy_names_the_nearest_fault(void **state)
     fm_device *device = NULL;
     fm_error err = { .message = "" };
     const fm_device_desc desc = { .no_timers = false };
-    assert_int_equal(device_open(&device, "dummy:tinny", &desc, &err), FM_INVALID);
+    assert_int_equal(device_open(&device, &dummy_alone, "dummy:tinny", &desc, &err), FM_INVALID);
     assert_null(device);
     assert_non_null(strstr(err.message, "'dummy:tiny'"));
 }

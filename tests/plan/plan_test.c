@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "base/text.h"
+#include "cli/devices.h"
 #include "fragmark/technique.h"
 #include "model/feeds.h"
 #include "plan/plan.h"
@@ -58,8 +59,7 @@ static void fixture_create(fixture *with)
     with->entries[2].plugin = &with->plugins[1];
     with->entries[3].plugin = &with->plugins[2];
     fm_fail(&with->entries[1].error, FM_INVALID, "broken.so: abi");
-    with->list.entries = with->entries;
-    with->list.count = 4;
+    with->list = (fm_plugin_list){ .entries = with->entries, .count = 4 };
 }
 
 /* A list as requests have them. */
@@ -67,8 +67,10 @@ static void fixture_create(fixture *with)
 
 static fm_status expand(fixture *with, const fm_plan_request *request)
 {
+    fm_plan_request complete = *request;
+    complete.known_devices = &cli_devices;
     plan_free(&with->plan);
-    return plan_expand(&with->plan, request, &with->list, &with->err);
+    return plan_expand(&with->plan, &complete, &with->list, &with->err);
 }
 
 static void expect(fixture *with, const fm_plan_request *request, size_t count)
@@ -224,10 +226,8 @@ static void plan_refuses_axes_with_the_nearest_name(void **state)
         if (strstr(with.err.message, bad[i].message) == NULL)
             fail_msg("%s: '%s' lacks '%s'", bad[i].axis, with.err.message, bad[i].message);
     }
-    const fm_plan_request twice = { .axes = LIST("k=4", "k=8") };
-    expect_refused(&with, &twice, "'k' is given twice");
-    const fm_plan_request both = { .axes = LIST("n=4", "r=8") };
-    expect_refused(&with, &both, "n and r");
+    expect_refused(&with, &(fm_plan_request){ .axes = LIST("k=4", "k=8") }, "'k' is given twice");
+    expect_refused(&with, &(fm_plan_request){ .axes = LIST("n=4", "r=8") }, "n and r");
 }
 
 static void plan_bounds_the_number_of_cases(void **state)

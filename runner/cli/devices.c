@@ -1,0 +1,17 @@
+#include "devices.h"
+
+#include "device/dummy/dummy.h"
+#include "device/osmesa/osmesa.h"
+#include "device/vulkan/vulkan.h"
+#include "simulator/device.h"
+
+static const fm_device_ops *const built[] = {
+    &vulkan_device,
+#ifdef FM_HAS_OSMESA
+    &osmesa_device,
+#endif
+    &tbr_device,
+    &dummy_device,
+};
+
+const fm_device_list cli_devices = { .devices = built, .count = sizeof built / sizeof built[0] };

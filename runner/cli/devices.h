@@ -1,0 +1,12 @@
+/* The devices that are built into this program: the only place that names them all. main.c hands
+ * the list down; tests take the same one. */
+#ifndef FM_CLI_DEVICES_H
+#define FM_CLI_DEVICES_H
+
+#include "device/registry.h"
+
+/* In the order in which `list devices` shows them. "osmesa" is missing from builds without
+ * FM_OSMESA. */
+extern const fm_device_list cli_devices;
+
+#endif
