@@ -1,6 +1,7 @@
 /* What the files of this folder share.
  *
  *   vulkan.c      the table of functions; list, open, close
+ *   result.c      a VkResult as an error
  *   instance.c    the loader's instance, validation, the devices it offers
  *   caps.c        features that are enabled and what fm_device_caps says
  *   memory.c      buffers and their memory
@@ -120,7 +121,8 @@ typedef struct vulkan {
     uint64_t frame_start_ns;
 } vulkan;
 
-/* "WHAT: VK_ERROR_..." with the status that fits. */
+/* result.c. "WHAT: device lost (VkResult -4)" with the status that fits; FM_DEVICE_LOST for results
+ * that are not known. `format` and what follows say WHAT, without a colon at the end. */
 fm_status vulkan_fail(fm_error *err, VkResult result, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 

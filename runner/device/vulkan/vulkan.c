@@ -1,47 +1,11 @@
 #include "vulkan.h"
 
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "context.h"
 #include "device/selector.h"
-
-typedef struct result_traits {
-    VkResult result;
-    fm_status status;
-    const char *name;
-} result_traits;
-
-static const result_traits known_results[] = {
-    { VK_ERROR_OUT_OF_HOST_MEMORY, FM_NO_MEMORY, "out of host memory" },
-    { VK_ERROR_OUT_OF_DEVICE_MEMORY, FM_NO_MEMORY, "out of device memory" },
-    { VK_ERROR_TOO_MANY_OBJECTS, FM_NO_MEMORY, "too many objects" },
-    { VK_ERROR_DEVICE_LOST, FM_DEVICE_LOST, "device lost" },
-    { VK_ERROR_LAYER_NOT_PRESENT, FM_UNSUPPORTED, "layer not present" },
-    { VK_ERROR_EXTENSION_NOT_PRESENT, FM_UNSUPPORTED, "extension not present" },
-    { VK_ERROR_FEATURE_NOT_PRESENT, FM_UNSUPPORTED, "feature not present" },
-    { VK_ERROR_INCOMPATIBLE_DRIVER, FM_UNSUPPORTED, "incompatible driver" },
-    { VK_ERROR_INITIALIZATION_FAILED, FM_UNSUPPORTED, "initialization failed" },
-    { VK_ERROR_FORMAT_NOT_SUPPORTED, FM_UNSUPPORTED, "format not supported" },
-    { VK_ERROR_INVALID_SHADER_NV, FM_SHADER, "the driver's compiler refused the shader" },
-};
-
-fm_status vulkan_fail(fm_error *err, VkResult result, const char *format, ...)
-{
-    result_traits traits = { result, FM_DEVICE_LOST, "the driver failed" };
-    char what[512];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(what, sizeof what, format, arguments);
-    va_end(arguments);
-    for (size_t i = 0; i < sizeof known_results / sizeof known_results[0]; i++) {
-        if (known_results[i].result == result)
-            traits = known_results[i];
-    }
-    return fm_fail(err, traits.status, "%s: %s (VkResult %d)", what, traits.name, (int)result);
-}
 
 static fm_status list_devices(fm_device_entry *entries, size_t *count, fm_error *err)
 {
