@@ -77,8 +77,10 @@ fm_status vulkan_memory_bind_image(VkDeviceMemory *memory, const vulkan *self, V
     vkGetImageMemoryRequirements(self->device, image, &needs);
     const uint32_t type = device_type(self, needs.memoryTypeBits);
     const fm_status status = allocate(memory, self, &needs, type, false, err);
+    if (status != FM_OK && err != NULL)
+        fm_error_prefix(err, "image '%s'", name);
     if (status != FM_OK)
-        return fm_error_prefix(err, "image '%s': ", name);
+        return status;
     const VkResult result = vkBindImageMemory(self->device, image, *memory, 0);
     return result == VK_SUCCESS ? FM_OK : vulkan_fail(err, result, "image '%s'", name);
 }
@@ -172,7 +174,9 @@ fm_status vulkan_staging_create(fm_buffer **staging, const vulkan *self, fm_erro
         .is_mapped = true,
     };
     const fm_status status = create(staging, self, &plan, err);
-    return status == FM_OK ? FM_OK : fm_error_prefix(err, "vulkan: staging buffer: ");
+    if (status != FM_OK && err != NULL)
+        fm_error_prefix(err, "vulkan: staging buffer");
+    return status;
 }
 
 void vulkan_staging_destroy(const vulkan *self, fm_buffer *staging)
@@ -237,10 +241,11 @@ fm_status vulkan_buffer_create(fm_buffer **buffer, fm_device *device, const fm_b
     if (status != FM_OK)
         return status;
     status = create(buffer, self, &plan, err);
-    if (status != FM_OK)
-        return fm_error_prefix(err, "buffer '%s': ", desc->name);
-    ledger_add(&device->ledger, desc->owner, desc->bytes);
-    return FM_OK;
+    if (status == FM_OK)
+        ledger_add(&device->ledger, desc->owner, desc->bytes);
+    else if (err != NULL)
+        fm_error_prefix(err, "buffer '%s'", desc->name);
+    return status;
 }
 
 void vulkan_buffer_destroy(fm_device *device, fm_buffer *buffer)
