@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "device/ledger.h"
 #include "model/formats.h"
 
 enum { DUMMY_RANGE_BYTES = 1 << 30 };

@@ -2,7 +2,6 @@
 
 #include "base/clock.h"
 #include "context.h"
-#include "device/dispatch.h"
 
 fm_status osmesa_frame_begin(fm_device *device, fm_error *err)
 {
@@ -73,65 +72,4 @@ void osmesa_timer_end(fm_device *device, uint32_t timer)
     take_timestamp(&self->gl, self->timestamps[1]);
     self->times.timer_ns[timer] +=
         read_query(&self->gl, self->timestamps[1]) - read_query(&self->gl, self->timestamps[0]);
-}
-
-void osmesa_fill(fm_device *device, fm_buffer *buffer, uint32_t word)
-{
-    const fm_gl *gl = &osmesa_current(device)->gl;
-    gl->MemoryBarrier(GL_ALL_BARRIER_BITS);
-    gl->ClearNamedBufferData(buffer->name, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &word);
-}
-
-void osmesa_update(fm_device *device, fm_buffer *buffer, uint64_t offset_bytes, const void *bytes,
-                   uint32_t count)
-{
-    const fm_gl *gl = &osmesa_current(device)->gl;
-    assert(offset_bytes <= buffer->bytes && count <= buffer->bytes - offset_bytes);
-    gl->MemoryBarrier(GL_ALL_BARRIER_BITS);
-    gl->NamedBufferSubData(buffer->name, (GLintptr)offset_bytes, (GLsizeiptr)count, bytes);
-}
-
-static void bind_one(const fm_gl *gl, const fm_bind *bind)
-{
-    switch (bind->kind) {
-    case FM_BINDING_UNIFORM:
-        gl->BindBufferBase(GL_UNIFORM_BUFFER, bind->binding, bind->buffer->name);
-        return;
-    case FM_BINDING_STORAGE:
-        gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, bind->binding, bind->buffer->name);
-        return;
-    case FM_BINDING_ADDRESS: /* for barriers only, and everything waits for everything here */
-        return;
-    case FM_BINDING_SAMPLED:
-        gl->BindTextureUnit(bind->binding, bind->image->name);
-        return;
-    case FM_BINDING_STORAGE_IMAGE:
-        gl->BindImageTexture(bind->binding, bind->image->name, 0, bind->image->layers > 1, 0,
-                             GL_READ_WRITE, osmesa_format_of(bind->image->format)->internal);
-        return;
-    }
-}
-
-void osmesa_bind(const fm_gl *gl, const fm_bind *binds, uint32_t count)
-{
-    for (uint32_t i = 0; i < count; i++)
-        bind_one(gl, &binds[i]);
-}
-
-fm_status osmesa_dispatch(fm_device *device, const fm_dispatch *dispatch, fm_error *err)
-{
-    const fm_gl *gl = &osmesa_current(device)->gl;
-    const fm_status status = dispatch_check_groups(device, dispatch, err);
-    if (status != FM_OK)
-        return status;
-    gl->MemoryBarrier(GL_ALL_BARRIER_BITS);
-    gl->UseProgram(dispatch->pipeline->program);
-    osmesa_bind(gl, dispatch->binds, dispatch->bind_count);
-    if (dispatch->indirect != NULL) {
-        gl->BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, dispatch->indirect->name);
-        gl->DispatchComputeIndirect(0);
-    } else {
-        gl->DispatchCompute(dispatch->groups[0], dispatch->groups[1], dispatch->groups[2]);
-    }
-    return FM_OK;
 }

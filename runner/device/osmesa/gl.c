@@ -43,3 +43,15 @@ const char *gl_error_name(GLenum code)
         return "an unknown OpenGL error";
     }
 }
+
+fm_status gl_check_storage(const fm_gl *gl, const char *kind, const char *name, uint64_t bytes,
+                           fm_error *err)
+{
+    const GLenum code = gl->GetError();
+    if (code == GL_NO_ERROR)
+        return FM_OK;
+    if (code == GL_OUT_OF_MEMORY)
+        return fm_fail(err, FM_NO_MEMORY, "%s '%s': no room for %llu bytes", kind, name,
+                       (unsigned long long)bytes);
+    return fm_fail(err, FM_DEVICE_LOST, "%s '%s': %s", kind, name, gl_error_name(code));
+}

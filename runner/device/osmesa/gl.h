@@ -114,4 +114,9 @@ fm_status gl_load(fm_gl *gl, fm_error *err);
 /* "GL_INVALID_OPERATION", or "an unknown OpenGL error". */
 const char *gl_error_name(GLenum code);
 
+/* What came of asking OpenGL for storage of `bytes`. FM_NO_MEMORY, or FM_DEVICE_LOST for an error
+ * that should not be, with a message that begins with KIND 'NAME': "image 'slots': no room ...". */
+fm_status gl_check_storage(const fm_gl *gl, const char *kind, const char *name, uint64_t bytes,
+                           fm_error *err);
+
 #endif
