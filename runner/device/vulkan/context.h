@@ -1,17 +1,21 @@
-/* What the files of this folder share.
+/* What the files of this folder share: the device's struct, its objects, and their functions. Files
+ * that have one in osmesa/ with the same work have its name, too.
  *
- *   vulkan.c      the table of functions; list, open, close
- *   result.c      a VkResult as an error
- *   instance.c    the loader's instance, validation, the devices it offers
- *   caps.c        features that are enabled and what fm_device_caps says
- *   memory.c      buffers and their memory
- *   image.c       images
- *   transfer.c    reads and writes through staging, commands outside frames
- *   shader.c      GLSL to SPIR-V
- *   pipeline.c    pipelines; state.c: fixed-function state from the interface's enums
- *   barrier.c     which accesses have to wait for which
- *   frame.c       recording, submitting, timers and queries
- *   command.c     fill, update, clear, dispatch, draw; descriptor.c: what they bind
+ *   vulkan.c          the table of functions; list, open, close
+ *   instance.c        the loader's instance, validation, the devices it offers
+ *   logical_device.c  the device, with those features that shaders here may use
+ *   caps.c            what fm_device_caps says
+ *   result.c          a VkResult as an error
+ *   format.c          formats of images
+ *   memory.c          memory for buffers and images, of the type that fits
+ *   buffer.c          buffers
+ *   transfer.c        their reads and writes; commands outside frames, and submitting any
+ *   image.c           images
+ *   shader.c          GLSL to SPIR-V
+ *   pipeline.c        pipelines; state.c: fixed-function state from the interface's enums
+ *   barrier.c         which accesses have to wait for which
+ *   frame.c           begin and end, timers and queries
+ *   command.c         fill, update, clear, dispatch; draw.c: draws; bind.c: what their shaders see
  *
  * Images stay in VK_IMAGE_LAYOUT_GENERAL all their life: barriers are then memory barriers only. */
 #ifndef FM_VULKAN_CONTEXT_H
@@ -135,37 +139,78 @@ fm_status vulkan_find_devices(VkPhysicalDevice found[VULKAN_DEVICES_MAX], size_t
                               VkInstance instance, fm_error *err);
 uint32_t vulkan_queue_family(VkPhysicalDevice physical); /* UINT32_MAX: none */
 
-/* caps.c: the logical device with all features that shaders here may use. */
-fm_status vulkan_device_create(vulkan *self, fm_error *err);
+/* caps.c. Fills self->base.caps, but for features, and the limits beside it, from self->physical
+ * and self->queue_family. */
+void vulkan_caps_find(vulkan *self);
 
-/* memory.c */
-fm_status vulkan_memory_bind_image(VkDeviceMemory *memory, const vulkan *self, VkImage image,
-                                   const char *name, fm_error *err);
-fm_status vulkan_staging_create(fm_buffer **staging, const vulkan *self, fm_error *err);
-void vulkan_staging_destroy(const vulkan *self, fm_buffer *staging);
+/* logical_device.c. Creates self->device and self->queue, with what features the device has of
+ * those that shaders here may use, and says which in self->base.caps. FM_UNSUPPORTED: it lacks one
+ * that nothing here can do without. */
+fm_status vulkan_logical_device_create(vulkan *self, fm_error *err);
+
+/* format.c. What Vulkan calls a format, and which aspects its images have. */
+typedef struct vulkan_format {
+    VkFormat format; /* VK_FORMAT_UNDEFINED for FM_FORMAT_NONE */
+    bool has_depth, has_stencil;
+} vulkan_format;
+const vulkan_format *vulkan_format_of(fm_format format);
+/* What every image of a format is used for: shaders read it, draws write it, it is cleared. */
+VkImageUsageFlags vulkan_format_usage(fm_format format);
+/* How large images of a format can be with this usage; false: they cannot be made at all. */
+bool vulkan_format_limits(VkImageFormatProperties *limits, VkPhysicalDevice physical,
+                          fm_format format, VkImageUsageFlags usage);
+/* Sample counts that images of all formats from first to last can have; bit s: s samples. */
+uint32_t vulkan_format_samples(VkPhysicalDevice physical, fm_format first, fm_format last);
+/* A clear value: integer formats take the bits of each float. */
+VkClearColorValue vulkan_clear_colour(const float colour[4]);
+
+/* memory.c. */
+typedef enum vulkan_memory_kind {
+    VULKAN_MEMORY_DEVICE,   /* near the GPU */
+    VULKAN_MEMORY_COUNTERS, /* near the GPU, and read by the host if it can be */
+    VULKAN_MEMORY_STAGING,  /* the host's, from which the GPU copies */
+} vulkan_memory_kind;
+typedef struct vulkan_memory_desc {
+    VkMemoryRequirements needs; /* of the buffer or image */
+    vulkan_memory_kind kind;
+    bool has_address; /* of a buffer whose address is asked for */
+} vulkan_memory_desc;
+typedef struct vulkan_memory {
+    VkDeviceMemory memory; /* the caller frees it; VK_NULL_HANDLE on failure */
+    bool can_map;          /* by the host, without flushing */
+    bool is_cached;        /* and its reads are fast */
+} vulkan_memory;
+/* FM_NO_MEMORY; FM_UNSUPPORTED: no type of memory fits. The message names neither buffer nor image:
+ * the caller puts it before. */
+fm_status vulkan_memory_allocate(vulkan_memory *memory, const vulkan *self,
+                                 const vulkan_memory_desc *desc, fm_error *err);
+
+/* buffer.c */
 fm_status vulkan_buffer_create(fm_buffer **buffer, fm_device *device, const fm_buffer_desc *desc,
                                fm_error *err);
 void vulkan_buffer_destroy(fm_device *device, fm_buffer *buffer);
 uint64_t vulkan_buffer_address(const fm_buffer *buffer);
+/* The mapped buffer through which transfers go. It is in no ledger. */
+fm_status vulkan_staging_create(fm_buffer **staging, const vulkan *self, fm_error *err);
+void vulkan_staging_destroy(const vulkan *self, fm_buffer *staging);
 
 /* transfer.c */
 fm_status vulkan_buffer_write(fm_device *device, fm_buffer *buffer, uint64_t offset_bytes,
                               const void *bytes, uint64_t count, fm_error *err);
 fm_status vulkan_buffer_read(fm_device *device, fm_buffer *buffer, uint64_t offset_bytes,
                              void *bytes, uint64_t count, fm_error *err);
+/* What is recorded into self->transfer_commands between the two runs after all that went before,
+ * and is done when the second returns. */
 fm_status vulkan_transfer_begin(vulkan *self, fm_error *err);
 fm_status vulkan_transfer_end(vulkan *self, fm_error *err);
-/* Ends the commands, submits them and waits. */
+/* Ends the commands, submits them and waits, VULKAN_WAIT_NS at most on a GPU. `what` they are
+ * stands first in messages. FM_DEVICE_LOST. */
 fm_status vulkan_submit(vulkan *self, VkCommandBuffer commands, const char *what, fm_error *err);
 
 /* image.c */
 fm_status vulkan_image_create(fm_image_resource **image, fm_device *device,
                               const fm_image_desc *desc, fm_error *err);
 void vulkan_image_destroy(fm_device *device, fm_image_resource *image);
-VkFormat vulkan_format(fm_format format);
-bool vulkan_format_has_stencil(fm_format format);
-/* Sample counts that images of all formats from first to last can have; bit s: s samples. */
-uint32_t vulkan_find_samples(VkPhysicalDevice physical, fm_format first, fm_format last);
 
 /* shader.c: the compiler, for as long as the device is open. */
 fm_status vulkan_compiler_create(vulkan *self, fm_error *err);
@@ -195,11 +240,14 @@ void vulkan_barrier_record(VkCommandBuffer commands, const VkMemoryBarrier2 *bar
 /* Everything before is complete and visible to everything after; starts a new epoch. */
 void vulkan_barrier_full(vulkan *self, VkCommandBuffer commands);
 
-/* descriptor.c */
-fm_status vulkan_descriptors_bind(vulkan *self, const fm_pipeline *pipeline, const fm_bind *binds,
-                                  uint32_t count, fm_error *err);
-fm_status vulkan_descriptors_reset(vulkan *self, fm_error *err);
-void vulkan_descriptors_destroy(vulkan *self);
+/* bind.c. Everything that shaders of a command see: buffers, textures, images, written into a
+ * descriptor set that lasts until the next frame begins. FM_UNSUPPORTED: more than FM_MAX_BINDINGS,
+ * or an image that shaders cannot store into. */
+fm_status vulkan_bind(vulkan *self, const fm_pipeline *pipeline, const fm_bind *binds,
+                      uint32_t count, fm_error *err);
+/* Takes all sets back. */
+fm_status vulkan_bind_reset(vulkan *self, fm_error *err);
+void vulkan_bind_destroy(vulkan *self);
 
 /* frame.c */
 fm_status vulkan_queries_create(vulkan *self, fm_error *err);
@@ -216,6 +264,8 @@ void vulkan_update(fm_device *device, fm_buffer *buffer, uint64_t offset_bytes, 
 void vulkan_image_clear(fm_device *device, fm_image_resource *image, const float colour[4],
                         float depth, uint32_t stencil);
 fm_status vulkan_dispatch(fm_device *device, const fm_dispatch *dispatch, fm_error *err);
+
+/* draw.c */
 fm_status vulkan_draw(fm_device *device, const fm_draw *draw, fm_error *err);
 
 #endif

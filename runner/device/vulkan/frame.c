@@ -52,7 +52,7 @@ fm_status vulkan_frame_begin(fm_device *device, fm_error *err)
                                             .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT };
     self->frame_start_ns = clock_ns();
     self->timers_overflowed = false;
-    const fm_status status = vulkan_descriptors_reset(self, err);
+    const fm_status status = vulkan_bind_reset(self, err);
     if (status != FM_OK)
         return status;
     const VkResult result = vkBeginCommandBuffer(self->frame_commands, &info);

@@ -3,77 +3,8 @@
 #include <stdlib.h>
 
 #include "context.h"
+#include "device/ledger.h"
 #include "model/formats.h"
-
-enum { SAMPLES_MAX = 16 };
-
-typedef struct format_traits {
-    VkFormat format;
-    bool has_depth, has_stencil;
-} format_traits;
-
-static const format_traits traits[] = {
-    [FM_FORMAT_NONE] = { .format = VK_FORMAT_UNDEFINED },
-    [FM_FORMAT_R32UI] = { .format = VK_FORMAT_R32_UINT },
-    [FM_FORMAT_RG32UI] = { .format = VK_FORMAT_R32G32_UINT },
-    [FM_FORMAT_RGBA32UI] = { .format = VK_FORMAT_R32G32B32A32_UINT },
-    [FM_FORMAT_R32F] = { .format = VK_FORMAT_R32_SFLOAT },
-    [FM_FORMAT_RG32F] = { .format = VK_FORMAT_R32G32_SFLOAT },
-    [FM_FORMAT_RGBA32F] = { .format = VK_FORMAT_R32G32B32A32_SFLOAT },
-    [FM_FORMAT_RGBA8] = { .format = VK_FORMAT_R8G8B8A8_UNORM },
-    [FM_FORMAT_D32F] = { .format = VK_FORMAT_D32_SFLOAT, .has_depth = true },
-    [FM_FORMAT_D32F_S8] = { .format = VK_FORMAT_D32_SFLOAT_S8_UINT,
-                            .has_depth = true,
-                            .has_stencil = true },
-};
-_Static_assert(sizeof traits / sizeof traits[0] == FM_FORMAT_COUNT, "one a format");
-
-VkFormat vulkan_format(fm_format format)
-{
-    return traits[format].format;
-}
-
-bool vulkan_format_has_stencil(fm_format format)
-{
-    return traits[format].has_stencil;
-}
-
-static VkImageUsageFlags usage_of(fm_format format)
-{
-    return VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT |
-           (traits[format].has_depth ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
-                                     : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
-}
-
-static bool can_make(VkImageFormatProperties *limits, VkPhysicalDevice physical, fm_format format,
-                     VkImageUsageFlags usage)
-{
-    return vkGetPhysicalDeviceImageFormatProperties(physical, traits[format].format,
-                                                    VK_IMAGE_TYPE_2D, VK_IMAGE_TILING_OPTIMAL,
-                                                    usage, 0, limits) == VK_SUCCESS;
-}
-
-/* The flags' values are the counts; as ours, bit s says that s samples are possible. */
-static uint32_t sample_bits(VkSampleCountFlags counts)
-{
-    uint32_t bits = 0;
-    for (uint32_t samples = 1; samples <= SAMPLES_MAX; samples *= 2) {
-        if ((counts & samples) != 0)
-            bits |= 1u << samples;
-    }
-    return bits;
-}
-
-uint32_t vulkan_find_samples(VkPhysicalDevice physical, fm_format first, fm_format last)
-{
-    uint32_t common = ~0u;
-    for (fm_format format = first; format <= last; format++) {
-        VkImageFormatProperties limits = { .sampleCounts = 0 };
-        const bool is_possible = can_make(&limits, physical, format, usage_of(format));
-        common &= is_possible ? sample_bits(limits.sampleCounts) : 0;
-    }
-    return common;
-}
 
 static fm_status check_image(const VkImageFormatProperties *limits, const fm_image_desc *desc,
                              uint32_t samples, uint32_t layers, fm_error *err)
@@ -97,15 +28,16 @@ static fm_status find_usage(VkImageUsageFlags *usage, const vulkan *self, const 
                             uint32_t samples, uint32_t layers, fm_error *err)
 {
     VkImageFormatProperties limits;
-    *usage = usage_of(desc->format);
-    if (!can_make(&limits, self->physical, desc->format, *usage))
+    *usage = vulkan_format_usage(desc->format);
+    if (!vulkan_format_limits(&limits, self->physical, desc->format, *usage))
         return fm_fail(err, FM_UNSUPPORTED, "image '%s': this device lacks its format", desc->name);
     const fm_status status = check_image(&limits, desc, samples, layers, err);
-    if (status != FM_OK || traits[desc->format].has_depth)
+    if (status != FM_OK || vulkan_format_of(desc->format)->has_depth)
         return status;
     const bool may_store = samples == 1 || self->can_store_multisampled;
     if (may_store &&
-        can_make(&limits, self->physical, desc->format, *usage | VK_IMAGE_USAGE_STORAGE_BIT) &&
+        vulkan_format_limits(&limits, self->physical, desc->format,
+                             *usage | VK_IMAGE_USAGE_STORAGE_BIT) &&
         (limits.sampleCounts & samples) != 0)
         *usage |= VK_IMAGE_USAGE_STORAGE_BIT;
     return FM_OK;
@@ -118,7 +50,7 @@ static VkResult create_view(VkImageView *view, const vulkan *self, const fm_imag
         .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
         .image = image->image,
         .viewType = layers > 1 ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D,
-        .format = traits[format].format,
+        .format = vulkan_format_of(format)->format,
         .subresourceRange = { .aspectMask = aspects, .levelCount = 1, .layerCount = layers },
     };
     return vkCreateImageView(self->device, &info, NULL, view);
@@ -163,7 +95,7 @@ static VkResult create_views(fm_image_resource *image, const vulkan *self, fm_fo
                              uint32_t layers)
 {
     const VkImageAspectFlags read =
-        traits[format].has_depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+        vulkan_format_of(format)->has_depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
     const VkResult result =
         create_view(&image->target_view, self, image, format, image->aspects, 1);
     return result != VK_SUCCESS
@@ -173,10 +105,26 @@ static VkResult create_views(fm_image_resource *image, const vulkan *self, fm_fo
 
 static VkImageAspectFlags aspects_of(fm_format format)
 {
-    if (!traits[format].has_depth)
+    if (!vulkan_format_of(format)->has_depth)
         return VK_IMAGE_ASPECT_COLOR_BIT;
     return VK_IMAGE_ASPECT_DEPTH_BIT |
-           (traits[format].has_stencil ? VK_IMAGE_ASPECT_STENCIL_BIT : 0u);
+           (vulkan_format_of(format)->has_stencil ? VK_IMAGE_ASPECT_STENCIL_BIT : 0u);
+}
+
+static fm_status back_with_memory(fm_image_resource *image, const vulkan *self, const char *name,
+                                  fm_error *err)
+{
+    vulkan_memory_desc desc = { .kind = VULKAN_MEMORY_DEVICE };
+    vulkan_memory memory;
+    vkGetImageMemoryRequirements(self->device, image->image, &desc.needs);
+    const fm_status status = vulkan_memory_allocate(&memory, self, &desc, err);
+    if (status != FM_OK && err != NULL)
+        fm_error_prefix(err, "image '%s'", name);
+    if (status != FM_OK)
+        return status;
+    image->memory = memory.memory;
+    const VkResult result = vkBindImageMemory(self->device, image->image, image->memory, 0);
+    return result == VK_SUCCESS ? FM_OK : vulkan_fail(err, result, "image '%s'", name);
 }
 
 /* Creates the image, its memory and its views into *image, which the caller releases on failure. */
@@ -186,7 +134,7 @@ static fm_status make(fm_image_resource *image, vulkan *self, const fm_image_des
     const VkImageCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
         .imageType = VK_IMAGE_TYPE_2D,
-        .format = traits[desc->format].format,
+        .format = vulkan_format_of(desc->format)->format,
         .extent = { desc->width_px, desc->height_px, 1 },
         .mipLevels = 1,
         .arrayLayers = layers,
@@ -196,8 +144,7 @@ static fm_status make(fm_image_resource *image, vulkan *self, const fm_image_des
     VkResult result = vkCreateImage(self->device, &info, NULL, &image->image);
     if (result != VK_SUCCESS)
         return vulkan_fail(err, result, "image '%s'", desc->name);
-    const fm_status status =
-        vulkan_memory_bind_image(&image->memory, self, image->image, desc->name, err);
+    const fm_status status = back_with_memory(image, self, desc->name, err);
     if (status != FM_OK)
         return status;
     result = create_views(image, self, desc->format, layers);

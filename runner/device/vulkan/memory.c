@@ -1,14 +1,21 @@
-#include <assert.h>
-#include <stdlib.h>
-
 #include "context.h"
 
-enum { STAGING_BYTES = 16 << 20 };
+#define NEAR_GPU     VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT
+#define HOST_VISIBLE (VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT)
+#define HOST_CACHED  VK_MEMORY_PROPERTY_HOST_CACHED_BIT
 
-static const VkMemoryPropertyFlags near_gpu = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
-static const VkMemoryPropertyFlags host_visible =
-    VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
-static const VkMemoryPropertyFlags host_cached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+/* What each kind of memory should be, best first. Counters lie in a GPU's own memory also where the
+ * host cannot reach it: else their atomics would cross the bus. */
+static const struct {
+    VkMemoryPropertyFlags wishes[3];
+    size_t count;
+} kinds[] = {
+    [VULKAN_MEMORY_DEVICE] = { { NEAR_GPU, 0 }, 2 },
+    [VULKAN_MEMORY_COUNTERS] = { { NEAR_GPU | HOST_VISIBLE | HOST_CACHED, NEAR_GPU | HOST_VISIBLE,
+                                   NEAR_GPU },
+                                 3 },
+    [VULKAN_MEMORY_STAGING] = { { HOST_VISIBLE | HOST_CACHED, HOST_VISIBLE }, 2 },
+};
 
 /* The first allowed type with all of `wanted`; UINT32_MAX: none. */
 static uint32_t find_type(const vulkan *self, uint32_t allowed, VkMemoryPropertyFlags wanted)
@@ -21,242 +28,36 @@ static uint32_t find_type(const vulkan *self, uint32_t allowed, VkMemoryProperty
     return UINT32_MAX;
 }
 
-static uint32_t find_first_type(const vulkan *self, uint32_t allowed,
-                                const VkMemoryPropertyFlags *wishes, size_t count)
+/* The best type of this kind; UINT32_MAX: none fits. */
+static uint32_t choose_type(const vulkan *self, uint32_t allowed, vulkan_memory_kind kind)
 {
     uint32_t type = UINT32_MAX;
-    for (size_t i = 0; i < count && type == UINT32_MAX; i++)
-        type = find_type(self, allowed, wishes[i]);
+    for (size_t i = 0; i < kinds[kind].count && type == UINT32_MAX; i++)
+        type = find_type(self, allowed, kinds[kind].wishes[i]);
     return type;
 }
 
-/* Where the host reads often: counters in a GPU's own memory, or its atomics would cross the bus.
- */
-static uint32_t host_read_type(const vulkan *self, uint32_t allowed)
-{
-    const VkMemoryPropertyFlags wishes[] = { near_gpu | host_visible | host_cached,
-                                             near_gpu | host_visible, near_gpu };
-    return find_first_type(self, allowed, wishes, 3);
-}
-
-static uint32_t staging_type(const vulkan *self, uint32_t allowed)
-{
-    const VkMemoryPropertyFlags wishes[] = { host_visible | host_cached, host_visible };
-    return find_first_type(self, allowed, wishes, 2);
-}
-
-static uint32_t device_type(const vulkan *self, uint32_t allowed)
-{
-    const VkMemoryPropertyFlags wishes[] = { near_gpu, 0 };
-    return find_first_type(self, allowed, wishes, 2);
-}
-
-static fm_status allocate(VkDeviceMemory *memory, const vulkan *self,
-                          const VkMemoryRequirements *needs, uint32_t type, bool has_address,
-                          fm_error *err)
+fm_status vulkan_memory_allocate(vulkan_memory *memory, const vulkan *self,
+                                 const vulkan_memory_desc *desc, fm_error *err)
 {
     const VkMemoryAllocateFlagsInfo flags = { .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO,
                                               .flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT };
+    const uint32_t type = choose_type(self, desc->needs.memoryTypeBits, desc->kind);
     const VkMemoryAllocateInfo info = { .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
-                                        .pNext = has_address ? &flags : NULL,
-                                        .allocationSize = needs->size,
+                                        .pNext = desc->has_address ? &flags : NULL,
+                                        .allocationSize = desc->needs.size,
                                         .memoryTypeIndex = type };
+    *memory = (vulkan_memory){ .memory = VK_NULL_HANDLE };
     if (type == UINT32_MAX)
         return fm_fail(err, FM_UNSUPPORTED, "no memory type fits");
-    const VkResult result = vkAllocateMemory(self->device, &info, NULL, memory);
-    if (result == VK_SUCCESS)
-        return FM_OK;
-    *memory = VK_NULL_HANDLE;
-    return vulkan_fail(err, result, "no room for %llu bytes", (unsigned long long)needs->size);
-}
-
-fm_status vulkan_memory_bind_image(VkDeviceMemory *memory, const vulkan *self, VkImage image,
-                                   const char *name, fm_error *err)
-{
-    VkMemoryRequirements needs;
-    vkGetImageMemoryRequirements(self->device, image, &needs);
-    const uint32_t type = device_type(self, needs.memoryTypeBits);
-    const fm_status status = allocate(memory, self, &needs, type, false, err);
-    if (status != FM_OK && err != NULL)
-        fm_error_prefix(err, "image '%s'", name);
-    if (status != FM_OK)
-        return status;
-    const VkResult result = vkBindImageMemory(self->device, image, *memory, 0);
-    return result == VK_SUCCESS ? FM_OK : vulkan_fail(err, result, "image '%s'", name);
-}
-
-/* How a buffer of this folder is made. */
-typedef struct buffer_plan {
-    uint64_t bytes;
-    fm_owner owner;
-    VkBufferUsageFlags usage;
-    uint32_t (*type)(const vulkan *, uint32_t allowed);
-    bool is_mapped; /* if its memory can be */
-} buffer_plan;
-
-static fm_status map(fm_buffer *buffer, const vulkan *self, uint32_t type, fm_error *err)
-{
-    const VkMemoryPropertyFlags flags = self->memory.memoryTypes[type].propertyFlags;
-    buffer->is_cached = (flags & host_cached) != 0;
-    if ((flags & host_visible) != host_visible)
-        return FM_OK;
-    const VkResult result =
-        vkMapMemory(self->device, buffer->memory, 0, VK_WHOLE_SIZE, 0, &buffer->mapped);
-    return result == VK_SUCCESS ? FM_OK : vulkan_fail(err, result, "mapping");
-}
-
-static fm_status back_with_memory(fm_buffer *buffer, const vulkan *self, const buffer_plan *plan,
-                                  fm_error *err)
-{
-    VkMemoryRequirements needs;
-    const bool has_address = (plan->usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) != 0;
-    vkGetBufferMemoryRequirements(self->device, buffer->buffer, &needs);
-    const uint32_t type = plan->type(self, needs.memoryTypeBits);
-    const fm_status status = allocate(&buffer->memory, self, &needs, type, has_address, err);
-    if (status != FM_OK)
-        return status;
-    const VkResult result = vkBindBufferMemory(self->device, buffer->buffer, buffer->memory, 0);
-    if (result != VK_SUCCESS)
-        return vulkan_fail(err, result, "binding memory");
-    if (has_address)
-        buffer->address = vkGetBufferDeviceAddress(
-            self->device,
-            &(VkBufferDeviceAddressInfo){ .sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO,
-                                          .buffer = buffer->buffer });
-    return plan->is_mapped ? map(buffer, self, type, err) : FM_OK;
-}
-
-static void release(const vulkan *self, fm_buffer *buffer)
-{
-    if (buffer != NULL && !self->has_hung) {
-        vkDestroyBuffer(self->device, buffer->buffer, NULL);
-        vkFreeMemory(self->device, buffer->memory, NULL);
-    }
-    free(buffer);
-}
-
-static fm_status create(fm_buffer **buffer, const vulkan *self, const buffer_plan *plan,
-                        fm_error *err)
-{
-    fm_status status = FM_OK;
-    const VkBufferCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
-        .size = (plan->bytes + 3) & ~3ull, /* so that a fill reaches the last byte */
-        .usage = plan->usage,
-    };
-    fm_buffer *made = calloc(1, sizeof *made);
-    if (made == NULL)
-        return fm_fail(err, FM_NO_MEMORY, "%zu bytes", sizeof *made);
-    made->bytes = plan->bytes;
-    made->owner = plan->owner;
-    const VkResult result = vkCreateBuffer(self->device, &info, NULL, &made->buffer);
+    const VkResult result = vkAllocateMemory(self->device, &info, NULL, &memory->memory);
     if (result != VK_SUCCESS) {
-        made->buffer = VK_NULL_HANDLE;
-        status = vulkan_fail(err, result, "%llu bytes", (unsigned long long)plan->bytes);
-        goto out;
+        memory->memory = VK_NULL_HANDLE;
+        return vulkan_fail(err, result, "no room for %llu bytes",
+                           (unsigned long long)desc->needs.size);
     }
-    status = back_with_memory(made, self, plan, err);
-    if (status != FM_OK)
-        goto out;
-    *buffer = made;
-    made = NULL;
-out:
-    release(self, made);
-    return status;
-}
-
-fm_status vulkan_staging_create(fm_buffer **staging, const vulkan *self, fm_error *err)
-{
-    const buffer_plan plan = {
-        .bytes = STAGING_BYTES,
-        .usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-        .type = staging_type,
-        .is_mapped = true,
-    };
-    const fm_status status = create(staging, self, &plan, err);
-    if (status != FM_OK && err != NULL)
-        fm_error_prefix(err, "vulkan: staging buffer");
-    return status;
-}
-
-void vulkan_staging_destroy(const vulkan *self, fm_buffer *staging)
-{
-    release(self, staging);
-}
-
-static fm_status check_limit(const fm_buffer_desc *desc, uint64_t limit, const char *which,
-                             fm_error *err)
-{
-    if (desc->bytes <= limit)
-        return FM_OK;
-    return fm_fail(err, FM_UNSUPPORTED,
-                   "buffer '%s': %llu bytes, %s buffers of this device end at %llu", desc->name,
-                   (unsigned long long)desc->bytes, which, (unsigned long long)limit);
-}
-
-static fm_status check_size(const vulkan *self, const fm_buffer_desc *desc, fm_error *err)
-{
-    const fm_device_caps *caps = &self->base.caps;
-    assert(desc->bytes > 0);
-    if (desc->by_address && (caps->features & FM_FEATURE_BUFFER_ADDRESS) == 0)
-        return fm_fail(err, FM_UNSUPPORTED, "buffer '%s': this device has no buffer addresses",
-                       desc->name);
-    if (desc->by_address)
-        return check_limit(desc, caps->buffer_max_bytes, "addressed", err);
-    if (desc->is_uniform)
-        return check_limit(desc, self->limits.maxUniformBufferRange, "uniform", err);
-    return check_limit(desc, caps->storage_range_bytes, "bound", err);
-}
-
-static VkBufferUsageFlags usage_of(const fm_buffer_desc *desc)
-{
-    VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
-                               VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-    if (desc->is_vertex)
-        usage |= VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
-    if (desc->is_index)
-        usage |= VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
-    if (desc->is_uniform)
-        usage |= VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT;
-    if (desc->is_indirect)
-        usage |= VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
-    if (desc->by_address)
-        usage |= VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
-    return usage;
-}
-
-fm_status vulkan_buffer_create(fm_buffer **buffer, fm_device *device, const fm_buffer_desc *desc,
-                               fm_error *err)
-{
-    vulkan *self = (vulkan *)device;
-    const buffer_plan plan = {
-        .bytes = desc->bytes,
-        .owner = desc->owner,
-        .usage = usage_of(desc),
-        .type = desc->host_reads ? host_read_type : device_type,
-        .is_mapped = desc->host_reads,
-    };
-    *buffer = NULL;
-    fm_status status = check_size(self, desc, err);
-    if (status != FM_OK)
-        return status;
-    status = create(buffer, self, &plan, err);
-    if (status == FM_OK)
-        ledger_add(&device->ledger, desc->owner, desc->bytes);
-    else if (err != NULL)
-        fm_error_prefix(err, "buffer '%s'", desc->name);
-    return status;
-}
-
-void vulkan_buffer_destroy(fm_device *device, fm_buffer *buffer)
-{
-    if (buffer == NULL)
-        return;
-    ledger_remove(&device->ledger, buffer->owner, buffer->bytes);
-    release((vulkan *)device, buffer);
-}
-
-uint64_t vulkan_buffer_address(const fm_buffer *buffer)
-{
-    return buffer->address;
+    const VkMemoryPropertyFlags has = self->memory.memoryTypes[type].propertyFlags;
+    memory->can_map = (has & HOST_VISIBLE) == HOST_VISIBLE;
+    memory->is_cached = (has & HOST_CACHED) != 0;
+    return FM_OK;
 }

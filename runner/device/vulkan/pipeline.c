@@ -55,7 +55,8 @@ static fm_status check_targets(const vulkan *self, const fm_pipeline_desc *desc,
     for (uint32_t i = 0; i < desc->target_count; i++) {
         VkFormatProperties can;
         const fm_target_desc *target = &desc->targets[i];
-        vkGetPhysicalDeviceFormatProperties(self->physical, vulkan_format(target->format), &can);
+        vkGetPhysicalDeviceFormatProperties(self->physical,
+                                            vulkan_format_of(target->format)->format, &can);
         if (target->blend != FM_BLEND_OFF &&
             (can.optimalTilingFeatures & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT) == 0)
             return fm_fail(err, FM_UNSUPPORTED, "%s: target %u: its format cannot be blended here",
@@ -171,10 +172,10 @@ static void describe_vertices(graphics_parts *parts, const fm_pipeline_desc *des
 
 static void describe_output(graphics_parts *parts, const fm_pipeline_desc *desc)
 {
-    const VkFormat depth_stencil = vulkan_format(desc->depth_stencil);
+    const VkFormat depth_stencil = vulkan_format_of(desc->depth_stencil)->format;
     for (uint32_t i = 0; i < desc->target_count; i++) {
         parts->blends[i] = vulkan_blend(&desc->targets[i]);
-        parts->formats[i] = vulkan_format(desc->targets[i].format);
+        parts->formats[i] = vulkan_format_of(desc->targets[i].format)->format;
     }
     parts->blend = (VkPipelineColorBlendStateCreateInfo){
         .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
@@ -186,8 +187,9 @@ static void describe_output(graphics_parts *parts, const fm_pipeline_desc *desc)
         .colorAttachmentCount = desc->target_count,
         .pColorAttachmentFormats = parts->formats,
         .depthAttachmentFormat = depth_stencil,
-        .stencilAttachmentFormat =
-            vulkan_format_has_stencil(desc->depth_stencil) ? depth_stencil : VK_FORMAT_UNDEFINED,
+        .stencilAttachmentFormat = vulkan_format_of(desc->depth_stencil)->has_stencil
+                                       ? depth_stencil
+                                       : VK_FORMAT_UNDEFINED,
     };
     parts->depth_stencil = vulkan_depth_stencil(desc);
     parts->sample_mask = vulkan_sample_mask(desc);

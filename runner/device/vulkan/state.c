@@ -62,7 +62,7 @@ VkPipelineDepthStencilStateCreateInfo vulkan_depth_stencil(const fm_pipeline_des
 {
     const fm_state *state = &desc->state;
     const bool has_depth = desc->depth_stencil != FM_FORMAT_NONE;
-    const bool has_stencil = vulkan_format_has_stencil(desc->depth_stencil);
+    const bool has_stencil = vulkan_format_of(desc->depth_stencil)->has_stencil;
     const VkStencilOpState stencil = {
         .failOp = stencil_op[state->stencil_fail],
         .depthFailOp = stencil_op[state->stencil_depth_fail],

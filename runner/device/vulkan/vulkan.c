@@ -109,7 +109,7 @@ static void close_device(fm_device *device)
     if (self->device != VK_NULL_HANDLE) {
         vulkan_staging_destroy(self, self->staging);
         vulkan_queries_destroy(self);
-        vulkan_descriptors_destroy(self);
+        vulkan_bind_destroy(self);
     }
     if (self->device != VK_NULL_HANDLE && !self->has_hung) {
         vkDestroySampler(self->device, self->sampler, NULL);
@@ -136,8 +136,10 @@ static fm_status open_device(fm_device **device, const fm_device_desc *desc, fm_
         vulkan_instance_create(&self->instance, &self->validation, desc->validation, err);
     if (status == FM_OK)
         status = choose_device(self, desc->selector, err);
-    if (status == FM_OK)
-        status = vulkan_device_create(self, err);
+    if (status == FM_OK) {
+        vulkan_caps_find(self);
+        status = vulkan_logical_device_create(self, err);
+    }
     if (status == FM_OK)
         status = create_commands(self, err);
     if (status == FM_OK)

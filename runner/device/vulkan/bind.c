@@ -94,8 +94,8 @@ static fm_status check_stores(const fm_bind *binds, uint32_t count, fm_error *er
     return FM_OK;
 }
 
-fm_status vulkan_descriptors_bind(vulkan *self, const fm_pipeline *pipeline, const fm_bind *binds,
-                                  uint32_t count, fm_error *err)
+fm_status vulkan_bind(vulkan *self, const fm_pipeline *pipeline, const fm_bind *binds,
+                      uint32_t count, fm_error *err)
 {
     VkDescriptorBufferInfo buffers[FM_MAX_BINDINGS];
     VkDescriptorImageInfo images[FM_MAX_BINDINGS];
@@ -127,7 +127,7 @@ fm_status vulkan_descriptors_bind(vulkan *self, const fm_pipeline *pipeline, con
     return FM_OK;
 }
 
-fm_status vulkan_descriptors_reset(vulkan *self, fm_error *err)
+fm_status vulkan_bind_reset(vulkan *self, fm_error *err)
 {
     vulkan_descriptors *all = &self->descriptors;
     for (uint32_t i = 0; i < all->count && i <= all->current; i++) {
@@ -139,7 +139,7 @@ fm_status vulkan_descriptors_reset(vulkan *self, fm_error *err)
     return FM_OK;
 }
 
-void vulkan_descriptors_destroy(vulkan *self)
+void vulkan_bind_destroy(vulkan *self)
 {
     for (uint32_t i = 0; i < self->descriptors.count && !self->has_hung; i++)
         vkDestroyDescriptorPool(self->device, self->descriptors.pools[i], NULL);
