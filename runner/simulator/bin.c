@@ -240,16 +240,16 @@ static bool sign(tbr *gpu, tbr_bin *bin, const fm_pair *pair, fm_prediction pred
 static fm_status bin_pair(tbr *gpu, uint32_t tile, uint32_t primitive_crc, fm_error *err)
 {
     const uint32_t primitive = gpu->primitive_count - 1, draw = gpu->primitive_draw[primitive];
-    const tbr_draw *of = &gpu->draws[draw];
+    const tbr_draw *ready = &gpu->draws[draw];
     tbr_bin *bin = &gpu->bins[tile];
     const fm_status status = make_entry_room(gpu, err);
     if (status != FM_OK)
         return status;
     if (gpu->tracks_layers)
-        number_layer(bin, draw, of->type == FM_TYPE_WOZ);
+        number_layer(bin, draw, ready->type == FM_TYPE_WOZ);
     const fm_pair pair = {
-        .type = of->type,
-        .depth_test = of->tests_depth,
+        .type = ready->type,
+        .depth_test = ready->tests_depth,
         .layer = tbr_has(gpu, FM_PART_VISIBILITY) ? bin->layer : 0,
         .depth_near = 2 * gpu->setups[primitive].z_min,
         .fvp = gpu->memory[tile].fvp,

@@ -32,13 +32,13 @@ fm_status history_create(history **made, fm_error *err)
     return FM_OK;
 }
 
-void history_destroy(history *of)
+void history_destroy(history *self)
 {
-    if (of == NULL)
+    if (self == NULL)
         return;
-    free(of->textures);
-    free(of->keyed);
-    free(of);
+    free(self->textures);
+    free(self->keyed);
+    free(self);
 }
 
 /* ---- textures ---- */
@@ -53,33 +53,33 @@ static texture_seen *find_texture(texture_seen *textures, uint32_t room, uint32_
 }
 
 /* At most half of the places are in use. */
-static bool make_texture_room(history *of)
+static bool make_texture_room(history *self)
 {
-    if (2 * of->texture_count < of->texture_room)
+    if (2 * self->texture_count < self->texture_room)
         return true;
-    const uint32_t room = of->texture_room > 0 ? 2 * of->texture_room : FIRST_ROOM;
-    texture_seen *grown = room > of->texture_room ? calloc(room, sizeof *grown) : NULL;
+    const uint32_t room = self->texture_room > 0 ? 2 * self->texture_room : FIRST_ROOM;
+    texture_seen *grown = room > self->texture_room ? calloc(room, sizeof *grown) : NULL;
     if (grown == NULL)
         return false;
-    for (uint32_t i = 0; i < of->texture_room; i++)
-        if (of->textures[i].is_used)
-            *find_texture(grown, room, of->textures[i].texture) = of->textures[i];
-    free(of->textures);
-    of->textures = grown;
-    of->texture_room = room;
+    for (uint32_t i = 0; i < self->texture_room; i++)
+        if (self->textures[i].is_used)
+            *find_texture(grown, room, self->textures[i].texture) = self->textures[i];
+    free(self->textures);
+    self->textures = grown;
+    self->texture_room = room;
     return true;
 }
 
-fm_status history_uploads(bool *has_uploads, history *of, const fm_frame *frame, fm_error *err)
+fm_status history_uploads(bool *has_uploads, history *self, const fm_frame *frame, fm_error *err)
 {
     *has_uploads = false;
     for (uint32_t i = 0; i < frame->draw_count; i++) {
         const fm_draw_call *draw = &frame->draws[i];
-        if (!make_texture_room(of))
-            return fm_fail(err, FM_NO_MEMORY, "no memory for %u textures", of->texture_count);
-        texture_seen *seen = find_texture(of->textures, of->texture_room, draw->texture);
+        if (!make_texture_room(self))
+            return fm_fail(err, FM_NO_MEMORY, "no memory for %u textures", self->texture_count);
+        texture_seen *seen = find_texture(self->textures, self->texture_room, draw->texture);
         *has_uploads = *has_uploads || (seen->is_used && seen->version != draw->texture_version);
-        of->texture_count += !seen->is_used;
+        self->texture_count += !seen->is_used;
         *seen = (texture_seen){ draw->texture, draw->texture_version, true };
     }
     return FM_OK;
@@ -95,13 +95,13 @@ static int compare_keyed(const void *left, const void *right)
     return (a->draw > b->draw) - (a->draw < b->draw);
 }
 
-static void note_depths(history *of, const fm_frame *frame, const bool *may_move)
+static void note_depths(history *self, const fm_frame *frame, const bool *may_move)
 {
-    memcpy(of->last_depths, of->depths, sizeof of->depths);
-    memset(of->depths, 255, sizeof of->depths);
+    memcpy(self->last_depths, self->depths, sizeof self->depths);
+    memset(self->depths, 255, sizeof self->depths);
     for (uint32_t i = 0; i < frame->draw_count; i++) {
         const fm_draw_call *draw = &frame->draws[i];
-        uint32_t *nearest = &of->depths[draw->object];
+        uint32_t *nearest = &self->depths[draw->object];
         for (uint32_t k = 0; may_move[i] && k < 3 * draw->count; k++) {
             const uint32_t z = frame->triangles[draw->first + k / 3].corners[k % 3].z;
             *nearest = z < *nearest ? z : *nearest;
@@ -109,32 +109,32 @@ static void note_depths(history *of, const fm_frame *frame, const bool *may_move
     }
 }
 
-static bool make_keyed_room(history *of, uint32_t wanted)
+static bool make_keyed_room(history *self, uint32_t wanted)
 {
     keyed_draw *grown =
-        wanted > of->keyed_room ? reallocarray(of->keyed, wanted, sizeof *grown) : of->keyed;
+        wanted > self->keyed_room ? reallocarray(self->keyed, wanted, sizeof *grown) : self->keyed;
     if (grown == NULL)
         return wanted == 0;
-    of->keyed_room = wanted > of->keyed_room ? wanted : of->keyed_room;
-    of->keyed = grown;
+    self->keyed_room = wanted > self->keyed_room ? wanted : self->keyed_room;
+    self->keyed = grown;
     return true;
 }
 
-fm_status history_order(uint32_t *order, history *of, const fm_frame *frame, const bool *may_move,
+fm_status history_order(uint32_t *order, history *self, const fm_frame *frame, const bool *may_move,
                         fm_error *err)
 {
-    if (!make_keyed_room(of, frame->draw_count))
+    if (!make_keyed_room(self, frame->draw_count))
         return fm_fail(err, FM_NO_MEMORY, "no memory to order %u draw calls", frame->draw_count);
-    note_depths(of, frame, may_move);
+    note_depths(self, frame, may_move);
     for (uint32_t i = 0; i < frame->draw_count; i++)
-        of->keyed[i] = (keyed_draw){ of->last_depths[frame->draws[i].object], i };
+        self->keyed[i] = (keyed_draw){ self->last_depths[frame->draws[i].object], i };
     for (uint32_t first = 0, end; first < frame->draw_count; first = end) {
         end = first + 1;
         while (may_move[first] && end < frame->draw_count && may_move[end])
             end++;
-        qsort(&of->keyed[first], end - first, sizeof *of->keyed, compare_keyed);
+        qsort(&self->keyed[first], end - first, sizeof *self->keyed, compare_keyed);
     }
     for (uint32_t i = 0; i < frame->draw_count; i++)
-        order[i] = of->keyed[i].draw;
+        order[i] = self->keyed[i].draw;
     return FM_OK;
 }

@@ -11,16 +11,16 @@
 typedef struct history history;
 
 fm_status history_create(history **made, fm_error *err);
-void history_destroy(history *of);
+void history_destroy(history *self);
 
 /* Whether a texture that was seen before has another version now; from then on that is the known
  * one. FM_NO_MEMORY. */
-fm_status history_uploads(bool *has_uploads, history *of, const fm_frame *frame, fm_error *err);
+fm_status history_uploads(bool *has_uploads, history *self, const fm_frame *frame, fm_error *err);
 
 /* Orders draw calls: stretches of neighbours with may_move[draw] become front to back by how near
  * their objects came in the last frame; new objects come last, and what is equally near stays in
  * submission order. order has draw_count entries. FM_NO_MEMORY. */
-fm_status history_order(uint32_t *order, history *of, const fm_frame *frame, const bool *may_move,
+fm_status history_order(uint32_t *order, history *self, const fm_frame *frame, const bool *may_move,
                         fm_error *err);
 
 #endif

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 typedef struct helper {
-    pool *of;
+    pool *pool;
     uint32_t index;
     pthread_t thread;
 } helper;
@@ -24,78 +24,78 @@ struct pool {
 
 static void *help(void *argument)
 {
-    const helper *self = argument;
-    pool *of = self->of;
+    const helper *member = argument;
+    pool *self = member->pool;
     uint64_t seen = 0;
-    pthread_mutex_lock(&of->lock);
+    pthread_mutex_lock(&self->lock);
     for (;;) {
-        while (of->round == seen && !of->is_closing)
-            pthread_cond_wait(&of->begin, &of->lock);
-        if (of->is_closing)
+        while (self->round == seen && !self->is_closing)
+            pthread_cond_wait(&self->begin, &self->lock);
+        if (self->is_closing)
             break;
-        seen = of->round;
-        pool_work *work = of->work;
-        void *context = of->context;
-        pthread_mutex_unlock(&of->lock);
-        work(context, self->index);
-        pthread_mutex_lock(&of->lock);
-        if (--of->busy == 0)
-            pthread_cond_signal(&of->done);
+        seen = self->round;
+        pool_work *work = self->work;
+        void *context = self->context;
+        pthread_mutex_unlock(&self->lock);
+        work(context, member->index);
+        pthread_mutex_lock(&self->lock);
+        if (--self->busy == 0)
+            pthread_cond_signal(&self->done);
     }
-    pthread_mutex_unlock(&of->lock);
+    pthread_mutex_unlock(&self->lock);
     return NULL;
 }
 
 fm_status pool_create(pool **made, uint32_t threads, fm_error *err)
 {
     *made = NULL;
-    pool *of = calloc(1, sizeof *of + threads * sizeof of->helpers[0]);
-    if (of == NULL)
+    pool *self = calloc(1, sizeof *self + threads * sizeof self->helpers[0]);
+    if (self == NULL)
         return fm_fail(err, FM_NO_MEMORY, "no memory for %u threads", threads);
-    pthread_mutex_init(&of->lock, NULL);
-    pthread_cond_init(&of->begin, NULL);
-    pthread_cond_init(&of->done, NULL);
+    pthread_mutex_init(&self->lock, NULL);
+    pthread_cond_init(&self->begin, NULL);
+    pthread_cond_init(&self->done, NULL);
     for (uint32_t i = 1; i < threads; i++) {
-        helper *self = &of->helpers[of->helper_count];
-        *self = (helper){ .of = of, .index = i };
-        if (pthread_create(&self->thread, NULL, help, self) != 0) {
-            pool_destroy(of);
+        helper *member = &self->helpers[self->helper_count];
+        *member = (helper){ .pool = self, .index = i };
+        if (pthread_create(&member->thread, NULL, help, member) != 0) {
+            pool_destroy(self);
             return fm_fail(err, FM_NO_MEMORY, "thread %u cannot be started", i);
         }
-        of->helper_count++;
+        self->helper_count++;
     }
-    *made = of;
+    *made = self;
     return FM_OK;
 }
 
-void pool_destroy(pool *of)
+void pool_destroy(pool *self)
 {
-    if (of == NULL)
+    if (self == NULL)
         return;
-    pthread_mutex_lock(&of->lock);
-    of->is_closing = true;
-    pthread_cond_broadcast(&of->begin);
-    pthread_mutex_unlock(&of->lock);
-    for (uint32_t i = 0; i < of->helper_count; i++)
-        pthread_join(of->helpers[i].thread, NULL);
-    pthread_cond_destroy(&of->done);
-    pthread_cond_destroy(&of->begin);
-    pthread_mutex_destroy(&of->lock);
-    free(of);
+    pthread_mutex_lock(&self->lock);
+    self->is_closing = true;
+    pthread_cond_broadcast(&self->begin);
+    pthread_mutex_unlock(&self->lock);
+    for (uint32_t i = 0; i < self->helper_count; i++)
+        pthread_join(self->helpers[i].thread, NULL);
+    pthread_cond_destroy(&self->done);
+    pthread_cond_destroy(&self->begin);
+    pthread_mutex_destroy(&self->lock);
+    free(self);
 }
 
-void pool_run(pool *of, pool_work *work, void *context)
+void pool_run(pool *self, pool_work *work, void *context)
 {
-    pthread_mutex_lock(&of->lock);
-    of->work = work;
-    of->context = context;
-    of->busy = of->helper_count;
-    of->round++;
-    pthread_cond_broadcast(&of->begin);
-    pthread_mutex_unlock(&of->lock);
+    pthread_mutex_lock(&self->lock);
+    self->work = work;
+    self->context = context;
+    self->busy = self->helper_count;
+    self->round++;
+    pthread_cond_broadcast(&self->begin);
+    pthread_mutex_unlock(&self->lock);
     work(context, 0);
-    pthread_mutex_lock(&of->lock);
-    while (of->busy > 0)
-        pthread_cond_wait(&of->done, &of->lock);
-    pthread_mutex_unlock(&of->lock);
+    pthread_mutex_lock(&self->lock);
+    while (self->busy > 0)
+        pthread_cond_wait(&self->done, &self->lock);
+    pthread_mutex_unlock(&self->lock);
 }

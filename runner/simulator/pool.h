@@ -12,7 +12,7 @@ typedef void pool_work(void *context, uint32_t thread);
 
 /* threads: the caller's included, 1 at least. FM_NO_MEMORY: or threads cannot be had. */
 fm_status pool_create(pool **made, uint32_t threads, fm_error *err);
-void pool_destroy(pool *of);
-void pool_run(pool *of, pool_work *work, void *context);
+void pool_destroy(pool *self);
+void pool_run(pool *self, pool_work *work, void *context);
 
 #endif

@@ -106,7 +106,7 @@ static tbr_span make_span(const tile_state *tile, const tbr_entry *entry)
 {
     const tbr *gpu = tile->gpu;
     const tbr_setup *setup = &gpu->setups[entry->primitive];
-    const tbr_draw *of = &gpu->draws[entry->draw];
+    const tbr_draw *ready = &gpu->draws[entry->draw];
     const fm_draw_call *draw = &gpu->frame->draws[entry->draw];
     tbr_span span = {
         .z = { plane_at(&setup->z, tile), setup->z.gx, setup->z.gy },
@@ -118,17 +118,17 @@ static tbr_span make_span(const tile_state *tile, const tbr_entry *entry)
         .z_min = (int32_t)setup->z_min,
         .z_max = (int32_t)setup->z_max,
         .draw = draw,
-        .digest = of->digest,
-        .writes_depth = of->writes_depth,
+        .digest = ready->digest,
+        .writes_depth = ready->writes_depth,
         .late_test = (draw->flags & (FM_DRAW_DISCARD | FM_DRAW_SHADER_DEPTH)) != 0,
         .tracks_layers = gpu->tracks_layers,
         .tracks_owner = gpu->tracks_layers && tbr_has(gpu, FM_PART_OWNER),
         .tracks_taint = tbr_has(gpu, FM_PART_TAINT),
         .tracks_order = tbr_has(gpu, FM_PART_EXACT_TIES),
-        .exact_ties = tbr_has(gpu, FM_PART_EXACT_TIES) && of->type == FM_TYPE_WOZ,
+        .exact_ties = tbr_has(gpu, FM_PART_EXACT_TIES) && ready->type == FM_TYPE_WOZ,
         .is_signed = entry->is_signed,
         .layer = entry->layer,
-        .order = entry->primitive - of->binned_first + of->submitted_first + 1,
+        .order = entry->primitive - ready->binned_first + ready->submitted_first + 1,
     };
     place_edges(&span, setup, tile);
     return span;
@@ -168,7 +168,7 @@ static void count_pixels(tile_state *tile, const tbr_entry *entry, const tbr_spa
                          uint32_t shaded)
 {
     tbr_counters *count = &tile->counters;
-    const tbr_draw *of = &tile->gpu->draws[entry->draw];
+    const tbr_draw *ready = &tile->gpu->draws[entry->draw];
     const fm_draw_call *draw = &tile->gpu->frame->draws[entry->draw];
     const uint64_t fragments = count_fragments(result->shaded);
     const uint64_t passed = count_quads(result->passed);
@@ -176,7 +176,7 @@ static void count_pixels(tile_state *tile, const tbr_entry *entry, const tbr_spa
     count->fragments_shaded += fragments;
     count->fragment_instructions_run += 4ull * shaded * draw->fragment_instructions;
     count->texture_bytes16 += fragments * draw->texture_bytes16;
-    count->depth_quad_writes += of->writes_depth ? passed : 0;
+    count->depth_quad_writes += ready->writes_depth ? passed : 0;
     count->colour_quad_writes += draw->mask != 0 ? passed : 0;
     if (draw->mix != FM_MIX_OFF) {
         count->colour_quad_reads += passed;

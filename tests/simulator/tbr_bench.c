@@ -32,7 +32,7 @@ static void fail(const fm_error *err)
     abort();
 }
 
-static fm_sequence *make_sequence(const bench_scene *of)
+static fm_sequence *make_sequence(const bench_scene *scene)
 {
     fm_settings settings;
     fm_sequence *sequence = NULL;
@@ -41,10 +41,10 @@ static fm_sequence *make_sequence(const bench_scene *of)
     settings.width_px = WIDTH;
     settings.height_px = HEIGHT;
     settings.sequence_frames = FRAMES;
-    settings.backgrounds = of->backgrounds;
-    settings.sprites = of->sprites;
-    settings.triangles = of->triangles;
-    settings.hud = of->hud;
+    settings.backgrounds = scene->backgrounds;
+    settings.sprites = scene->sprites;
+    settings.triangles = scene->triangles;
+    settings.hud = scene->hud;
     settings.camera_px = 3; /* everything moves: nothing is skipped */
     if (frames_generate(&sequence, &settings, &err) != FM_OK)
         fail(&err);

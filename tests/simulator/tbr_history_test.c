@@ -24,14 +24,14 @@ static runner runner_new(const char *words)
     return made;
 }
 
-static void runner_free(runner *of)
+static void runner_free(runner *with)
 {
-    tbr_destroy(of->gpu);
-    kit_technique_close(&of->technique);
+    tbr_destroy(with->gpu);
+    kit_technique_close(&with->technique);
 }
 
 /* A frame of whole-screen quads at these depths, each an object of its own. */
-static const tbr_counters *draw_quads(runner *of, const uint32_t *depths, uint32_t count,
+static const tbr_counters *draw_quads(runner *with, const uint32_t *depths, uint32_t count,
                                       uint32_t texture_version)
 {
     fm_frame_builder builder = { 0 };
@@ -46,19 +46,19 @@ static const tbr_counters *draw_quads(runner *of, const uint32_t *depths, uint32
         frame_builder_quad(&builder, (const int32_t[4]){ 0, 0, SIDE, SIDE }, depths[i]);
     }
     assert_int_equal(frame_check(&builder.frame, 0, &err), FM_OK);
-    assert_int_equal(tbr_frame(of->gpu, &builder.frame, &err), FM_OK);
+    assert_int_equal(tbr_frame(with->gpu, &builder.frame, &err), FM_OK);
     frame_builder_free(&builder);
-    return tbr_counts(of->gpu);
+    return tbr_counts(with->gpu);
 }
 
 static void vro_lite_draws_objects_nearest_first(void **state)
 {
     (void)state;
     const uint32_t depths[] = { 900, 500, 100 };
-    runner of = runner_new("tbr-vro-lite");
-    assert_int_equal(draw_quads(&of, depths, 3, 0)->fragments_shaded, 3 * SIDE * SIDE);
-    assert_int_equal(draw_quads(&of, depths, 3, 0)->fragments_shaded, SIDE * SIDE);
-    runner_free(&of);
+    runner with = runner_new("tbr-vro-lite");
+    assert_int_equal(draw_quads(&with, depths, 3, 0)->fragments_shaded, 3 * SIDE * SIDE);
+    assert_int_equal(draw_quads(&with, depths, 3, 0)->fragments_shaded, SIDE * SIDE);
+    runner_free(&with);
 }
 
 /* One that comes with the frame is drawn last, and hidden by what the last frame had. */
@@ -66,10 +66,10 @@ static void new_objects_come_last(void **state)
 {
     (void)state;
     const uint32_t depths[] = { 900, 500, 700 };
-    runner of = runner_new("tbr-vro-lite");
-    draw_quads(&of, depths, 2, 0);
-    assert_int_equal(draw_quads(&of, depths, 3, 0)->fragments_shaded, SIDE * SIDE);
-    runner_free(&of);
+    runner with = runner_new("tbr-vro-lite");
+    draw_quads(&with, depths, 2, 0);
+    assert_int_equal(draw_quads(&with, depths, 3, 0)->fragments_shaded, SIDE * SIDE);
+    runner_free(&with);
 }
 
 static void order_stays_within_stretches_that_may_move(void **state)
@@ -81,7 +81,7 @@ static void order_stays_within_stretches_that_may_move(void **state)
     fm_draw_call draws[DRAWS];
     fm_triangle triangles[DRAWS];
     uint32_t order[DRAWS];
-    history *of = NULL;
+    history *past = NULL;
     fm_error err = { 0 };
     memset(triangles, 0, sizeof triangles);
     for (uint32_t i = 0; i < DRAWS; i++) {
@@ -95,13 +95,13 @@ static void order_stays_within_stretches_that_may_move(void **state)
     const fm_frame frame = {
         .draws = draws, .draw_count = DRAWS, .triangles = triangles, .triangle_count = DRAWS
     };
-    assert_int_equal(history_create(&of, &err), FM_OK);
-    assert_int_equal(history_order(order, of, &frame, may_move, &err), FM_OK);
+    assert_int_equal(history_create(&past, &err), FM_OK);
+    assert_int_equal(history_order(order, past, &frame, may_move, &err), FM_OK);
     for (uint32_t i = 0; i < DRAWS; i++)
         assert_int_equal(order[i], i); /* nothing is known yet */
-    assert_int_equal(history_order(order, of, &frame, may_move, &err), FM_OK);
+    assert_int_equal(history_order(order, past, &frame, may_move, &err), FM_OK);
     assert_memory_equal(order, wanted, sizeof wanted);
-    history_destroy(of);
+    history_destroy(past);
 }
 
 /* Two pictures in turns: the last frame is never the same, the one before always. */
@@ -126,11 +126,11 @@ static void uploads_disable_skipping_where_asked(void **state)
     (void)state;
     static const uint32_t versions[] = { 1, 1, 2, 2 };
     const uint32_t depths[] = { 100 };
-    runner of = runner_new("tbr-re uploads=disable");
+    runner with = runner_new("tbr-re uploads=disable");
     for (uint32_t i = 0; i < 4; i++)
-        assert_int_equal(draw_quads(&of, depths, 1, versions[i])->tiles_skipped,
+        assert_int_equal(draw_quads(&with, depths, 1, versions[i])->tiles_skipped,
                          i == 1 || i == 3 ? TILES : 0);
-    runner_free(&of);
+    runner_free(&with);
 }
 
 static void uploads_of_many_textures_are_told(void **state)
@@ -139,20 +139,20 @@ static void uploads_of_many_textures_are_told(void **state)
     enum { DRAWS = 1000 };
     fm_draw_call draws[DRAWS] = { 0 };
     const fm_frame frame = { .draws = draws, .draw_count = DRAWS };
-    history *of = NULL;
+    history *past = NULL;
     fm_error err = { 0 };
     bool has_uploads = true;
-    assert_int_equal(history_create(&of, &err), FM_OK);
+    assert_int_equal(history_create(&past, &err), FM_OK);
     for (uint32_t i = 0; i < DRAWS; i++)
         draws[i].texture = i * 65536;
     for (int frames = 0; frames < 2; frames++) {
-        assert_int_equal(history_uploads(&has_uploads, of, &frame, &err), FM_OK);
+        assert_int_equal(history_uploads(&has_uploads, past, &frame, &err), FM_OK);
         assert_false(has_uploads); /* new, then known */
     }
     draws[777].texture_version = 1;
-    assert_int_equal(history_uploads(&has_uploads, of, &frame, &err), FM_OK);
+    assert_int_equal(history_uploads(&has_uploads, past, &frame, &err), FM_OK);
     assert_true(has_uploads);
-    history_destroy(of);
+    history_destroy(past);
 }
 
 int main(void)

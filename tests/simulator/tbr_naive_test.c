@@ -24,14 +24,14 @@ typedef struct twins {
     uint32_t seed, frame;
 } twins;
 
-static void compare_lists(const twins *of, uint32_t index)
+static void compare_lists(const twins *pair, uint32_t index)
 {
-    const naive_tile *tile = &of->naive->tiles[index];
+    const naive_tile *tile = &pair->naive->tiles[index];
     tbr_list_entry entries[NAIVE_MAX_ENTRIES];
-    const uint32_t count = tbr_list(of->device, index, entries, NAIVE_MAX_ENTRIES);
+    const uint32_t count = tbr_list(pair->device, index, entries, NAIVE_MAX_ENTRIES);
     if (count != tile->count)
-        fail_msg("%s, seed %u, frame %u, tile %u: %u entries, naive %u", of->words, of->seed,
-                 of->frame, index, count, tile->count);
+        fail_msg("%s, seed %u, frame %u, tile %u: %u entries, naive %u", pair->words, pair->seed,
+                 pair->frame, index, count, tile->count);
     for (uint32_t i = 0; i < count; i++)
         if (entries[i].primitive != tile->list[i].primitive ||
             entries[i].draw != tile->list[i].draw || entries[i].layer != tile->list[i].layer ||
@@ -40,30 +40,31 @@ static void compare_lists(const twins *of, uint32_t index)
             fail_msg(
                 "%s, seed %u, frame %u, tile %u, entry %u: %u/%u layer %u prediction %d, naive "
                 "%u/%u layer %u prediction %d",
-                of->words, of->seed, of->frame, index, i, entries[i].draw, entries[i].primitive,
-                entries[i].layer, (int)entries[i].prediction, tile->list[i].draw,
-                tile->list[i].primitive, tile->list[i].layer, (int)tile->list[i].prediction);
+                pair->words, pair->seed, pair->frame, index, i, entries[i].draw,
+                entries[i].primitive, entries[i].layer, (int)entries[i].prediction,
+                tile->list[i].draw, tile->list[i].primitive, tile->list[i].layer,
+                (int)tile->list[i].prediction);
 }
 
-static void compare_tiles(const twins *of)
+static void compare_tiles(const twins *pair)
 {
-    for (uint32_t i = 0; i < tbr_tile_count(of->device); i++) {
-        const naive_tile *tile = &of->naive->tiles[i];
-        const tbr_tile_info info = tbr_tile(of->device, i);
-        compare_lists(of, i);
+    for (uint32_t i = 0; i < tbr_tile_count(pair->device); i++) {
+        const naive_tile *tile = &pair->naive->tiles[i];
+        const tbr_tile_info info = tbr_tile(pair->device, i);
+        compare_lists(pair, i);
         if (info.is_skipped != tile->is_skipped || info.signature_valid != tile->is_valid)
-            fail_msg("%s, seed %u, frame %u, tile %u: skipped %d valid %d, naive %d %d", of->words,
-                     of->seed, of->frame, i, info.is_skipped, info.signature_valid,
+            fail_msg("%s, seed %u, frame %u, tile %u: skipped %d valid %d, naive %d %d",
+                     pair->words, pair->seed, pair->frame, i, info.is_skipped, info.signature_valid,
                      tile->is_skipped, tile->is_valid);
-        if (of->naive->rules.predicts &&
+        if (pair->naive->rules.predicts &&
             (info.fvp.is_layer != tile->fvp.is_layer || info.fvp.value != tile->fvp.value))
-            fail_msg("%s, seed %u, frame %u, tile %u: FVP %d %u, naive %d %u", of->words, of->seed,
-                     of->frame, i, info.fvp.is_layer, info.fvp.value, tile->fvp.is_layer,
-                     tile->fvp.value);
+            fail_msg("%s, seed %u, frame %u, tile %u: FVP %d %u, naive %d %u", pair->words,
+                     pair->seed, pair->frame, i, info.fvp.is_layer, info.fvp.value,
+                     tile->fvp.is_layer, tile->fvp.value);
     }
 }
 
-static void compare_sequence(twins *of, const kit_technique *technique, const naive_rules *rules,
+static void compare_sequence(twins *pair, const kit_technique *technique, const naive_rules *rules,
                              const kit_sequence *sequence)
 {
     fm_error err = { 0 };
@@ -73,19 +74,19 @@ static void compare_sequence(twins *of, const kit_technique *technique, const na
                       .parts = technique->parts,
                       .threads = 1,
                       .keep_layers = true };
-    assert_int_equal(tbr_create(&of->device, &desc, &err), FM_OK);
-    of->naive = naive_create(rules, sequence->width_px, sequence->height_px);
-    for (of->frame = 0; of->frame < sequence->count; of->frame++) {
-        const fm_frame *frame = &sequence->frames[of->frame].frame;
-        assert_int_equal(tbr_frame(of->device, frame, &err), FM_OK);
-        naive_frame(of->naive, frame);
-        compare_tiles(of);
-        if (memcmp(tbr_image(of->device), of->naive->image,
+    assert_int_equal(tbr_create(&pair->device, &desc, &err), FM_OK);
+    pair->naive = naive_create(rules, sequence->width_px, sequence->height_px);
+    for (pair->frame = 0; pair->frame < sequence->count; pair->frame++) {
+        const fm_frame *frame = &sequence->frames[pair->frame].frame;
+        assert_int_equal(tbr_frame(pair->device, frame, &err), FM_OK);
+        naive_frame(pair->naive, frame);
+        compare_tiles(pair);
+        if (memcmp(tbr_image(pair->device), pair->naive->image,
                    (size_t)sequence->width_px * sequence->height_px * 4) != 0)
-            fail_msg("%s, seed %u, frame %u: another image", of->words, of->seed, of->frame);
+            fail_msg("%s, seed %u, frame %u: another image", pair->words, pair->seed, pair->frame);
     }
-    tbr_destroy(of->device);
-    naive_destroy(of->naive);
+    tbr_destroy(pair->device);
+    naive_destroy(pair->naive);
 }
 
 static void assert_twins_agree(const char *words, const naive_rules *rules)
@@ -94,10 +95,10 @@ static void assert_twins_agree(const char *words, const naive_rules *rules)
                                       ADVERSE_TIES | ADVERSE_SLOPED | ADVERSE_NWOZ, 0 };
     kit_technique technique = kit_technique_open(words);
     kit_sequence sequence = { 0 };
-    twins of = { .words = words };
-    for (of.seed = 0; of.seed < sequence_count(); of.seed++) {
-        kit_random(&sequence, of.seed, flags[of.seed % (sizeof flags / sizeof flags[0])]);
-        compare_sequence(&of, &technique, rules, &sequence);
+    twins pair = { .words = words };
+    for (pair.seed = 0; pair.seed < sequence_count(); pair.seed++) {
+        kit_random(&sequence, pair.seed, flags[pair.seed % (sizeof flags / sizeof flags[0])]);
+        compare_sequence(&pair, &technique, rules, &sequence);
     }
     kit_sequence_free(&sequence);
     kit_technique_close(&technique);

@@ -31,14 +31,14 @@ static const uint32_t *draw_frame(tbr *gpu, const kit_sequence *sequence, uint32
 static uint32_t first_difference(const kit_sequence *sequence, const kit_technique *technique,
                                  const kit_technique *base)
 {
-    tbr *of = kit_gpu(technique, sequence->width_px, sequence->height_px);
+    tbr *gpu = kit_gpu(technique, sequence->width_px, sequence->height_px);
     tbr *right = kit_gpu(base, sequence->width_px, sequence->height_px);
     const size_t bytes = (size_t)sequence->width_px * sequence->height_px * 4;
     uint32_t frame = 0;
     while (frame < sequence->count &&
-           memcmp(draw_frame(of, sequence, frame), draw_frame(right, sequence, frame), bytes) == 0)
+           memcmp(draw_frame(gpu, sequence, frame), draw_frame(right, sequence, frame), bytes) == 0)
         frame++;
-    tbr_destroy(of);
+    tbr_destroy(gpu);
     tbr_destroy(right);
     return frame;
 }

@@ -31,10 +31,10 @@ static tbr *gpu_with(kit_technique *technique, const char *words, uint32_t width
     return kit_gpu(technique, width_px, height_px);
 }
 
-static void add_rectangle(fm_frame_builder *builder, fm_draw_call of, const int32_t px[4],
+static void add_rectangle(fm_frame_builder *builder, fm_draw_call draw, const int32_t px[4],
                           uint32_t z)
 {
-    frame_builder_draw(builder, &of);
+    frame_builder_draw(builder, &draw);
     frame_builder_quad(builder, px, z);
 }
 

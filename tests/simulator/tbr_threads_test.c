@@ -59,14 +59,14 @@ static run run_new(const kit_technique *technique, uint32_t threads)
     return made;
 }
 
-static void compare_frame(const run *of, const run *first)
+static void compare_frame(const run *other, const run *first)
 {
-    const tbr_counters *counts = tbr_counts(of->gpu);
-    const cycles_frame ours = cycles_of_frame(of->model, counts);
+    const tbr_counters *counts = tbr_counts(other->gpu);
+    const cycles_frame ours = cycles_of_frame(other->model, counts);
     const cycles_frame theirs = cycles_of_frame(first->model, tbr_counts(first->gpu));
     assert_true(counts->fragments_shaded > 0);
     assert_memory_equal(counts, tbr_counts(first->gpu), sizeof *counts);
-    assert_memory_equal(tbr_image(of->gpu), tbr_image(first->gpu), WIDTH * HEIGHT * 4);
+    assert_memory_equal(tbr_image(other->gpu), tbr_image(first->gpu), WIDTH * HEIGHT * 4);
     assert_memory_equal(&ours, &theirs, sizeof ours);
 }
 

@@ -57,38 +57,38 @@ fm_status cycles_create(cycles **made, const model_table *table, uint32_t tile_c
                         uint32_t tiles_across, fm_error *err)
 {
     const uint32_t row_count = (tile_count + tiles_across - 1) / tiles_across;
-    cycles *of = calloc(1, sizeof *of);
+    cycles *self = calloc(1, sizeof *self);
     *made = NULL;
-    if (of != NULL) {
-        of->tiles = calloc(tile_count, sizeof *of->tiles);
-        of->rows = calloc(row_count, sizeof *of->rows);
+    if (self != NULL) {
+        self->tiles = calloc(tile_count, sizeof *self->tiles);
+        self->rows = calloc(row_count, sizeof *self->rows);
     }
-    if (of == NULL || of->tiles == NULL || of->rows == NULL) {
-        cycles_destroy(of);
+    if (self == NULL || self->tiles == NULL || self->rows == NULL) {
+        cycles_destroy(self);
         return fm_fail(err, FM_NO_MEMORY, "no memory for the cycles of %u tiles", tile_count);
     }
-    of->tile_count = tile_count;
-    of->row_count = row_count;
-    of->tiles_across = tiles_across;
+    self->tile_count = tile_count;
+    self->row_count = row_count;
+    self->tiles_across = tiles_across;
     for (size_t i = 0; i < CYCLES_VARIANT_COUNT; i++) {
         const cycles_variant_info *info = &cycles_variants[i];
-        of->p[i] = table->nominal;
+        self->p[i] = table->nominal;
         if (!info->is_nominal)
-            memcpy((char *)&of->p[i] + info->offset,
+            memcpy((char *)&self->p[i] + info->offset,
                    (const char *)(info->is_high ? &table->high : &table->low) + info->offset,
                    sizeof(double));
     }
-    *made = of;
+    *made = self;
     return FM_OK;
 }
 
-void cycles_destroy(cycles *of)
+void cycles_destroy(cycles *self)
 {
-    if (of == NULL)
+    if (self == NULL)
         return;
-    free(of->tiles);
-    free(of->rows);
-    free(of);
+    free(self->tiles);
+    free(self->rows);
+    free(self);
 }
 
 double cycles_spilled(const model_parameters *p, const tbr_counters *counters)
@@ -161,35 +161,35 @@ static double largest(const double *values, size_t count)
     return most;
 }
 
-static double memory_cycles(const cycles *of, const tbr_counters *counters)
+static double memory_cycles(const cycles *self, const tbr_counters *counters)
 {
-    const model_parameters *p = &of->p[CYCLES_NOMINAL];
+    const model_parameters *p = &self->p[CYCLES_NOMINAL];
     const double written =
         (double)(counters->attribute_bytes + counters->list_bytes + counters->layer_bytes);
-    return ((double)counters->vertex_lines * p->line_bytes + of->spilled * written) /
+    return ((double)counters->vertex_lines * p->line_bytes + self->spilled * written) /
            p->dram_bytes_per_cycle;
 }
 
 void cycles_binned(void *context, const tbr_geometry *geometry, const tbr_counters *counters)
 {
-    cycles *of = context;
+    cycles *self = context;
     double stall = 0;
-    of->spilled = cycles_spilled(&of->p[CYCLES_NOMINAL], counters);
-    memset(of->tiles, 0, of->tile_count * sizeof *of->tiles);
-    memset(of->rows, 0, of->row_count * sizeof *of->rows);
+    self->spilled = cycles_spilled(&self->p[CYCLES_NOMINAL], counters);
+    memset(self->tiles, 0, self->tile_count * sizeof *self->tiles);
+    memset(self->rows, 0, self->row_count * sizeof *self->rows);
     double stages[] = { (double)counters->vertex_lines, (double)counters->vertex_instructions_run,
-                        (double)counters->primitives, memory_cycles(of, counters), 0 };
+                        (double)counters->primitives, memory_cycles(self, counters), 0 };
     for (size_t i = 0; i < CYCLES_VARIANT_COUNT; i++) {
         const bool differs = i == CYCLES_FAST_ACCUMULATE || i == CYCLES_SLOW_ACCUMULATE;
         if (i == CYCLES_NOMINAL)
-            stages[4] = build_lists(&of->signature_stall, geometry, &of->p[i]);
+            stages[4] = build_lists(&self->signature_stall, geometry, &self->p[i]);
         else if (differs && geometry->pair_is_signed != NULL)
-            stages[4] = build_lists(&stall, geometry, &of->p[i]);
+            stages[4] = build_lists(&stall, geometry, &self->p[i]);
         else {
-            of->geometry[i] = of->geometry[CYCLES_NOMINAL];
+            self->geometry[i] = self->geometry[CYCLES_NOMINAL];
             continue;
         }
-        of->geometry[i] = largest(stages, sizeof stages / sizeof stages[0]);
+        self->geometry[i] = largest(stages, sizeof stages / sizeof stages[0]);
     }
 }
 
@@ -299,34 +299,34 @@ static void follow_tile(row_clock *clock, const tbr_tile_work *tile, double memo
 
 void cycles_rendered(void *context, const tbr_tile_work *work)
 {
-    const cycles *of = context;
-    tile_cycles *tile = &of->tiles[work->tile];
-    const tile_sums sums = sum_tile(work, &of->p[CYCLES_NOMINAL]);
+    const cycles *self = context;
+    tile_cycles *tile = &self->tiles[work->tile];
+    const tile_sums sums = sum_tile(work, &self->p[CYCLES_NOMINAL]);
     double stages[STAGE_COUNT];
     for (size_t i = CYCLES_VARIANT_COUNT; i-- > 0;) { /* the nominal one last */
-        const double end = work->scans ? of->p[i].scan_cycles : 0;
-        fill_stages(stages, &sums, work, of->spilled, &of->p[i]);
+        const double end = work->scans ? self->p[i].scan_cycles : 0;
+        fill_stages(stages, &sums, work, self->spilled, &self->p[i]);
         tile->raster[i] = largest(stages, STAGE_COUNT) + end;
     }
     memcpy(tile->stages, stages, sizeof stages);
-    follow_tile(&of->rows[work->tile / of->tiles_across], work, stages[MEMORY],
-                &of->p[CYCLES_NOMINAL]);
+    follow_tile(&self->rows[work->tile / self->tiles_across], work, stages[MEMORY],
+                &self->p[CYCLES_NOMINAL]);
 }
 
-cycles_frame cycles_of_frame(const cycles *of, const tbr_counters *counters)
+cycles_frame cycles_of_frame(const cycles *self, const tbr_counters *counters)
 {
-    cycles_frame frame = { .signature_stall = of->signature_stall };
-    memcpy(frame.geometry, of->geometry, sizeof frame.geometry);
+    cycles_frame frame = { .signature_stall = self->signature_stall };
+    memcpy(frame.geometry, self->geometry, sizeof frame.geometry);
     for (size_t i = 0; i < CYCLES_VARIANT_COUNT; i++)
-        frame.raster[i] = (double)counters->signature_compares * of->p[i].compare_cycles;
+        frame.raster[i] = (double)counters->signature_compares * self->p[i].compare_cycles;
     frame.raster_b = frame.raster[CYCLES_NOMINAL];
-    for (uint32_t t = 0; t < of->tile_count; t++) {
+    for (uint32_t t = 0; t < self->tile_count; t++) {
         for (size_t i = 0; i < CYCLES_VARIANT_COUNT; i++)
-            frame.raster[i] += of->tiles[t].raster[i];
+            frame.raster[i] += self->tiles[t].raster[i];
         for (size_t i = 0; i < STAGE_COUNT; i++)
-            frame.stages[i] += of->tiles[t].stages[i];
+            frame.stages[i] += self->tiles[t].stages[i];
     }
-    for (uint32_t i = 0; i < of->row_count; i++)
-        frame.raster_b += of->rows[i].end + of->rows[i].scans;
+    for (uint32_t i = 0; i < self->row_count; i++)
+        frame.raster_b += self->rows[i].end + self->rows[i].scans;
     return frame;
 }

@@ -51,12 +51,12 @@ typedef struct cycles cycles;
 
 fm_status cycles_create(cycles **made, const model_table *table, uint32_t tile_count,
                         uint32_t tiles_across, fm_error *err);
-void cycles_destroy(cycles *of);
+void cycles_destroy(cycles *self);
 /* tbr_desc.binned and tbr_desc.rendered, with the model for context. */
 void cycles_binned(void *context, const tbr_geometry *geometry, const tbr_counters *counters);
 void cycles_rendered(void *context, const tbr_tile_work *work);
 /* After the frame. */
-cycles_frame cycles_of_frame(const cycles *of, const tbr_counters *counters);
+cycles_frame cycles_of_frame(const cycles *self, const tbr_counters *counters);
 /* The part of a parameter buffer of that size that does not stay in the L2 cache. */
 double cycles_spilled(const model_parameters *p, const tbr_counters *counters);
 
