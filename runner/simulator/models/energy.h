@@ -41,7 +41,7 @@ energy_result energy_of(const energy_inputs *inputs, const model_parameters *p);
 
 /* Corners of the sweep: cells {lop, hp} x DRAM, ALU, leakage {low, nominal, high}. */
 enum { ENERGY_CORNERS = 2 * 3 * 3 * 3 };
-/* The parameters of a corner, and its name, "hp dram=160 alu=8 leak=60". */
+/* The parameters of a corner, and its name, "hp.dram-160.alu-8.leak-60". */
 model_parameters energy_corner(char name[64], const model_table *table, unsigned corner);
 
 #endif

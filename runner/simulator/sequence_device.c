@@ -1,4 +1,4 @@
-#include "device.h"
+#include "sequence_device.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -24,7 +24,7 @@ static fm_status open_device(fm_device **device, const fm_device_desc *desc, fm_
     fm_device *made = calloc(1, sizeof *made);
     if (made == NULL)
         return fm_fail(err, FM_NO_MEMORY, "tbr: %zu bytes", sizeof *made);
-    made->ops = &tbr_device;
+    made->ops = &tbr_sequence_device;
     snprintf(made->caps.name, sizeof made->caps.name, "%s", title);
     snprintf(made->caps.driver, sizeof made->caps.driver, "fragmark");
     snprintf(made->caps.api, sizeof made->caps.api, "frames");
@@ -45,7 +45,7 @@ static uint32_t validation_errors(const fm_device *device, const char **first)
     return 0;
 }
 
-const fm_device_ops tbr_device = {
+const fm_device_ops tbr_sequence_device = {
     .name = "tbr",
     .feeds = FM_FEED_FRAMES,
     .list = list_devices,
