@@ -89,7 +89,7 @@ struct tbr {
     bool *draw_may_move;  /* with FM_PART_OBJECT_ORDER: */
     uint32_t *draw_order; /* submitted numbers, as binned */
     uint32_t draw_room;
-    tbr_setup *setups; /* [primitive_count], in submission order */
+    tbr_setup *setups; /* [primitive_count], in the order binned */
     uint32_t *primitive_draw, *pair_counts;
     uint32_t primitive_count, primitive_room;
     tbr_entry *entries;
