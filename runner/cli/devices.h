@@ -1,5 +1,6 @@
-/* The devices that are built into this program: the only place that names them all. main.c hands
- * the list down; tests take the same one. */
+/* The devices that are built into this program: the only place that names them all. To add one,
+ * write its folder and put its table here. main.c hands the list down to subcommands and workers;
+ * tests take the same one. */
 #ifndef FM_CLI_DEVICES_H
 #define FM_CLI_DEVICES_H
 

@@ -1,4 +1,5 @@
-/* GLSL that does not compile, as all devices report it. For implementations of devices. */
+/* GLSL that does not compile, as all devices report it, so that the author of a method reads the
+ * same message whatever the compiler. For implementations of devices. */
 #ifndef FM_DEVICE_SHADER_FAULT_H
 #define FM_DEVICE_SHADER_FAULT_H
 

@@ -140,7 +140,7 @@ static fm_status create_compute(fm_pipeline *pipeline, const vulkan *self,
 /* The parts of a graphics pipeline that depend on its descriptor; they point at one another. */
 typedef struct graphics_parts {
     VkVertexInputBindingDescription vertex_buffer;
-    VkVertexInputAttributeDescription attributes[4];
+    VkVertexInputAttributeDescription attributes[FM_MAX_ATTRIBUTES];
     VkPipelineVertexInputStateCreateInfo vertices;
     VkSampleMask sample_mask;
     VkPipelineMultisampleStateCreateInfo samples;
