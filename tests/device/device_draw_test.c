@@ -1,22 +1,8 @@
 /* What every device draws alike: positions, depth, stencil, blending, samples and queries. */
-#include "device_kit.h"
-
 #include <math.h>
 
-/* Pixels as words: what `expression`, of a pixel p, finds in an image. */
-#define FETCH_SOURCE(sampler, expression)                                                          \
-    "#version 450\n"                                                                               \
-    "layout(local_size_x = 256) in;\n"                                                             \
-    "layout(binding = 0) uniform " sampler " image;\n"                                             \
-    "layout(std430, binding = 1) writeonly buffer To { uint to[]; };\n"                            \
-    "void main() {\n"                                                                              \
-    "  ivec2 p = ivec2(gl_LocalInvocationID.x & 15u, gl_LocalInvocationID.x >> 4);\n"              \
-    "  to[gl_LocalInvocationID.x] = " expression ";\n"                                             \
-    "}\n"
+#include "fetch_kit.h"
 
-static const char fetch_uint[] = FETCH_SOURCE("usampler2D", "texelFetch(image, p, 0).r");
-static const char fetch_red[] =
-    FETCH_SOURCE("sampler2D", "floatBitsToUint(texelFetch(image, p, 0).r)");
 static const char fetch_alpha[] =
     FETCH_SOURCE("sampler2D", "floatBitsToUint(texelFetch(image, p, 0).a)");
 /* four samples, a byte each */
@@ -25,34 +11,10 @@ static const char fetch_samples[] =
                                 "<< 8 | uint(texelFetch(image, p, 2).r) << 16 | "
                                 "uint(texelFetch(image, p, 3).r) << 24");
 
-static const char instance_fragment[] = "#version 450\n"
-                                        "layout(location = 0) flat in int instance;\n"
-                                        "layout(location = 0) out uint target;\n"
-                                        "void main() { target = uint(instance) + 10u; }\n";
-
 static const char instance_fragment_float[] = "#version 450\n"
                                               "layout(location = 0) flat in int instance;\n"
                                               "layout(location = 0) out vec4 target;\n"
                                               "void main() { target = vec4(instance + 1); }\n";
-
-/* Reads an image in the frame that wrote it, then ends that frame. */
-static fm_frame_times end_and_fetch(uint32_t words[PIXELS], fm_device *device,
-                                    fm_image_resource *image, const char *source)
-{
-    fm_buffer *to = make_words(device, PIXELS);
-    fm_pipeline *fetch = make_pipeline(
-        device,
-        (fm_pipeline_desc){ .compute = source,
-                            .bindings = { { 0, FM_BINDING_SAMPLED }, { 1, FM_BINDING_STORAGE } },
-                            .binding_count = 2 });
-    const fm_bind binds[] = { bind_sampled(0, image), bind_words(1, to, FM_ACCESS_WRITE) };
-    dispatch(device, fetch, binds, 2, 1);
-    const fm_frame_times times = end(device);
-    read_words(device, to, words, PIXELS);
-    device->ops->pipeline_destroy(device, fetch);
-    device->ops->buffer_destroy(device, to);
-    return times;
-}
 
 /* Rows 0 to 7 of columns 0 to 3, at depth 0.375, and no target: the shader writes what it got. */
 static void device_draws_at_the_pixels_vulkan_says(void **state)
@@ -119,45 +81,12 @@ static void device_keeps_the_nearest_by_depth(void **state)
     draw(device, command, 3);
     command.target_loads[0] = command.depth_stencil_load = FM_LOAD_KEEP;
     draw(device, command, 1);
-    end_and_fetch(words, device, target, fetch_uint);
+    end_and_fetch(words, device, target, FETCH_UINT);
     for (uint32_t i = 0; i < PIXELS; i++)
         assert_int_equal(words[i], 12);
     begin(device);
-    end_and_fetch(words, device, depth, fetch_red);
+    end_and_fetch(words, device, depth, FETCH_RED);
     assert_true(as_float(words[17]) == 0.25f);
-    device->ops->pipeline_destroy(device, pipeline);
-    device->ops->image_destroy(device, target);
-    device->ops->image_destroy(device, depth);
-}
-
-static void device_clears_integers_as_bits(void **state)
-{
-    fm_device *device = device_of(state);
-    uint32_t words[PIXELS];
-    const float colour[4] = { as_float(0x12345678u) };
-    fm_image_resource *target = make_image(device, FM_FORMAT_R32UI, 1);
-    fm_image_resource *depth = make_image(device, FM_FORMAT_D32F, 1);
-    fm_pipeline *pipeline =
-        make_pipeline(device, (fm_pipeline_desc){ .fragment = instance_fragment,
-                                                  .targets = { { FM_FORMAT_R32UI, 0, true } },
-                                                  .target_count = 1 });
-    fm_draw command = { .pipeline = pipeline,
-                        .targets = { target },
-                        .target_loads = { FM_LOAD_CLEAR },
-                        .target_clears = { { as_float(0x00C0FFEEu) } },
-                        .target_count = 1 };
-    begin(device);
-    draw(device, command, 1); /* writes nothing: the colour mask is off */
-    end_and_fetch(words, device, target, fetch_uint);
-    assert_int_equal(words[200], 0x00C0FFEEu);
-    begin(device);
-    device->ops->image_clear(device, target, colour, 0, 0);
-    device->ops->image_clear(device, depth, colour, 0.625f, 0);
-    end_and_fetch(words, device, target, fetch_uint);
-    assert_int_equal(words[200], 0x12345678u);
-    begin(device);
-    end_and_fetch(words, device, depth, fetch_red);
-    assert_true(as_float(words[200]) == 0.625f);
     device->ops->pipeline_destroy(device, pipeline);
     device->ops->image_destroy(device, target);
     device->ops->image_destroy(device, depth);
@@ -187,7 +116,7 @@ static void check_blend(fm_device *device, const blend_case *expected)
                               .target_count = 1 };
     begin(device);
     draw(device, command, 1);
-    end_and_fetch(red, device, target, fetch_red);
+    end_and_fetch(red, device, target, FETCH_RED);
     begin(device);
     end_and_fetch(alpha, device, target, fetch_alpha);
     assert_true(fabsf(as_float(red[99]) - expected->red) < 1e-6f);
@@ -239,7 +168,7 @@ static uint32_t route(fm_device *device, uint32_t iteration)
                               .clear_stencil = 7 };
     begin(device);
     draw(device, command, 3);
-    end_and_fetch(words, device, target, fetch_uint);
+    end_and_fetch(words, device, target, FETCH_UINT);
     device->ops->pipeline_destroy(device, pipeline);
     device->ops->image_destroy(device, target);
     device->ops->image_destroy(device, stencil);
@@ -310,7 +239,7 @@ static void device_counts_samples_that_pass(void **state)
     command.query = 3;
     command.depth_stencil_load = FM_LOAD_CLEAR;
     draw(device, command, 2);
-    const fm_frame_times times = end_and_fetch(words, device, depth, fetch_red);
+    const fm_frame_times times = end_and_fetch(words, device, depth, FETCH_RED);
     assert_int_equal(times.query[3], 3 * PIXELS); /* two, and one more */
     assert_int_equal(times.query[5], 0);
     assert_int_equal(times.query[4], 0);
@@ -372,7 +301,7 @@ static void device_reads_vertices_through_indices(void **state)
                     .vertices = vertex_buffer,
                     .indices = index_buffer },
          1);
-    end_and_fetch(words, device, target, fetch_uint);
+    end_and_fetch(words, device, target, FETCH_UINT);
     for (uint32_t i = 0; i < PIXELS; i++)
         assert_int_equal(words[i], 9);
     device->ops->pipeline_destroy(device, pipeline);
@@ -381,48 +310,16 @@ static void device_reads_vertices_through_indices(void **state)
     device->ops->image_destroy(device, target);
 }
 
-static void device_stores_to_images(void **state)
-{
-    static const char store[] = "#version 450\n"
-                                "layout(local_size_x = 16, local_size_y = 16) in;\n"
-                                "layout(binding = 0, r32ui) uniform uimage2D image;\n"
-                                "void main() {\n"
-                                "  ivec2 p = ivec2(gl_LocalInvocationID.xy);\n"
-                                "  imageAtomicAdd(image, p, uint(p.y * 100 + p.x));\n"
-                                "}\n";
-    static const float zero[4] = { 0 };
-    fm_device *device = device_of(state);
-    uint32_t words[PIXELS];
-    fm_image_resource *image = make_image(device, FM_FORMAT_R32UI, 1);
-    fm_pipeline *pipeline =
-        make_pipeline(device, (fm_pipeline_desc){ .compute = store,
-                                                  .bindings = { { 0, FM_BINDING_STORAGE_IMAGE } },
-                                                  .binding_count = 1 });
-    const fm_bind bind = { .kind = FM_BINDING_STORAGE_IMAGE,
-                           .image = image,
-                           .access = FM_ACCESS_READ | FM_ACCESS_WRITE };
-    begin(device);
-    device->ops->image_clear(device, image, zero, 0, 0);
-    dispatch(device, pipeline, &bind, 1, 1);
-    dispatch(device, pipeline, &bind, 1, 1);
-    end_and_fetch(words, device, image, fetch_uint);
-    assert_int_equal(words[3 * SIDE_PX + 5], 2 * 305);
-    device->ops->pipeline_destroy(device, pipeline);
-    device->ops->image_destroy(device, image);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         ON_EACH_DEVICE(device_draws_at_the_pixels_vulkan_says),
         ON_EACH_DEVICE(device_keeps_the_nearest_by_depth),
-        ON_EACH_DEVICE(device_clears_integers_as_bits),
         ON_EACH_DEVICE(device_blends_as_the_interface_says),
         ON_EACH_DEVICE(device_routes_fragments_by_stencil),
         ON_EACH_DEVICE(device_masks_samples),
         ON_EACH_DEVICE(device_counts_samples_that_pass),
         ON_EACH_DEVICE(device_reads_vertices_through_indices),
-        ON_EACH_DEVICE(device_stores_to_images),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

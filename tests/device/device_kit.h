@@ -40,6 +40,13 @@ static const char stacked_vertex[] __attribute__((unused)) =
     "  gl_Position = vec4(corner * 4.0 - 1.0, 0.75 - 0.25 * float(instance), 1.0);\n"
     "}\n";
 
+/* Its fragment shader for a target of one uint: 10, 11, ... */
+static const char instance_fragment[] __attribute__((unused)) =
+    "#version 450\n"
+    "layout(location = 0) flat in int instance;\n"
+    "layout(location = 0) out uint target;\n"
+    "void main() { target = uint(instance) + 10u; }\n";
+
 /* Drivers and layers stay loaded, in place of the C library's function: a leak of theirs is
  * recognised, and suppressed, by the name of the library it comes from. Weak, for tests of several
  * files. */
@@ -120,7 +127,8 @@ static inline fm_buffer *make_words(fm_device *device, uint64_t count)
     return make_buffer(device, (fm_buffer_desc){ .bytes = count * 4 });
 }
 
-static inline fm_image_resource *make_image(fm_device *device, fm_format format, uint32_t samples)
+static inline fm_image_resource *make_layered_image(fm_device *device, fm_format format,
+                                                    uint32_t samples, uint32_t layers)
 {
     fm_image_resource *image = NULL;
     fm_error err = { .message = "" };
@@ -128,10 +136,16 @@ static inline fm_image_resource *make_image(fm_device *device, fm_format format,
                                  .format = format,
                                  .width_px = SIDE_PX,
                                  .height_px = SIDE_PX,
-                                 .samples = samples };
+                                 .samples = samples,
+                                 .layers = layers };
     if (device->ops->image_create(&image, device, &desc, &err) != FM_OK)
         fail_msg("%s", err.message);
     return image;
+}
+
+static inline fm_image_resource *make_image(fm_device *device, fm_format format, uint32_t samples)
+{
+    return make_layered_image(device, format, samples, 1);
 }
 
 static inline fm_pipeline *make_pipeline(fm_device *device, fm_pipeline_desc desc)

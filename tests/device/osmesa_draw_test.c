@@ -384,54 +384,6 @@ static void osmesa_reads_vertices_and_takes_flat_from_the_first(void **state)
     device->ops->close(device);
 }
 
-/* Both layers of a storage image array; integers are cleared by their bits. */
-static void osmesa_clears_all_layers_by_bits(void **state)
-{
-    (void)state;
-    const fm_device_desc plain = { .selector = NULL };
-    fm_device *device = open_osmesa(&plain);
-    fm_buffer *out = make_buffer(device, 8);
-    fm_image_resource *image = NULL;
-    const fm_image_desc desc = { .name = "pages",
-                                 .format = FM_FORMAT_R32UI,
-                                 .width_px = SIDE_PX,
-                                 .height_px = SIDE_PX,
-                                 .layers = 2 };
-    assert_int_equal(device->ops->image_create(&image, device, &desc, NULL), FM_OK);
-    fm_pipeline *copy = make_pipeline(
-        device, (fm_pipeline_desc){ .compute = "#version 450\n"
-                                               "layout(local_size_x = 1) in;\n"
-                                               "layout(binding = 2, r32ui) uniform\n"
-                                               "    uimage2DArray pages;\n"
-                                               "layout(binding = 1) buffer Out { uint o[]; };\n"
-                                               "void main() {\n"
-                                               "  for (int i = 0; i < 2; i++)\n"
-                                               "    o[i] = imageAtomicAdd(pages,\n"
-                                               "                          ivec3(3, 2, i), 1u);\n"
-                                               "}\n" });
-    const fm_bind binds[] = {
-        { 2, FM_BINDING_STORAGE_IMAGE, NULL, image, FM_ACCESS_READ | FM_ACCESS_WRITE },
-        { 1, FM_BINDING_STORAGE, out, NULL, FM_ACCESS_WRITE },
-    };
-    const uint32_t bits = 0x12345678u;
-    float colour[4] = { 0.0f };
-    uint32_t words[2];
-    memcpy(&colour[0], &bits, sizeof bits);
-    begin(device);
-    device->ops->image_clear(device, image, colour, 0.0f, 0);
-    dispatch(
-        device,
-        &(fm_dispatch){ .pipeline = copy, .binds = binds, .bind_count = 2, .groups = { 1, 1, 1 } });
-    end(device);
-    read_words(device, out, words, 2);
-    assert_int_equal(words[0], bits);
-    assert_int_equal(words[1], bits);
-    device->ops->pipeline_destroy(device, copy);
-    device->ops->image_destroy(device, image);
-    device->ops->buffer_destroy(device, out);
-    device->ops->close(device);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -439,7 +391,6 @@ int main(void)
         cmocka_unit_test(osmesa_reads_vertices_and_takes_flat_from_the_first),
         cmocka_unit_test(osmesa_blends_as_the_interface_says),
         cmocka_unit_test(osmesa_tests_and_writes_depth),
-        cmocka_unit_test(osmesa_clears_all_layers_by_bits),
         cmocka_unit_test(osmesa_routes_fragments_to_samples_by_stencil),
         cmocka_unit_test(osmesa_refuses_attachments_that_do_not_fit),
     };
