@@ -1,4 +1,5 @@
-/* What every device draws alike: positions, depth, stencil, blending, samples and queries. */
+/* What every device draws alike: positions, depth, stencil, blending, samples and queries;
+ * device_vertex_test.c has vertices, device_image_test.c images. */
 #include <math.h>
 
 #include "fetch_kit.h"
@@ -183,6 +184,77 @@ static void device_routes_fragments_by_stencil(void **state)
     assert_int_equal(route(device, 3), 0); /* nobody */
 }
 
+typedef struct stencil_case {
+    fm_stencil_op op;
+    uint32_t before, after; /* with 9 for reference */
+} stencil_case;
+
+/* Draws everywhere, and returns how many samples passed. */
+static uint64_t draw_stencil(fm_device *device, fm_image_resource *stencil, const fm_state *fixed,
+                             const uint32_t *clear)
+{
+    fm_pipeline *pipeline =
+        make_pipeline(device, (fm_pipeline_desc){ .fragment = "#version 450\nvoid main() {}\n",
+                                                  .depth_stencil = FM_FORMAT_D32F_S8,
+                                                  .state = *fixed });
+    begin(device);
+    draw(device,
+         (fm_draw){ .pipeline = pipeline,
+                    .depth_stencil = stencil,
+                    .depth_stencil_load = clear != NULL ? FM_LOAD_CLEAR : FM_LOAD_KEEP,
+                    .clear_depth = 1.0f,
+                    .clear_stencil = clear != NULL ? *clear : 0,
+                    .query = 1 },
+         1);
+    const fm_frame_times times = end(device);
+    device->ops->pipeline_destroy(device, pipeline);
+    return times.query[1];
+}
+
+/* The operation must be reached: `fixed` says in which of its three places it stands. */
+static void check_stencil(fm_device *device, const stencil_case *expected, const fm_state *fixed)
+{
+    fm_image_resource *stencil = make_image(device, FM_FORMAT_D32F_S8, 1);
+    const fm_state finds = { .stencil_test = FM_COMPARE_EQUAL,
+                             .stencil_reference = expected->after };
+    draw_stencil(device, stencil, fixed, &expected->before);
+    if (draw_stencil(device, stencil, &finds, NULL) != PIXELS)
+        fail_msg("operation %d does not make %u of %u", (int)expected->op, expected->after,
+                 expected->before);
+    device->ops->image_destroy(device, stencil);
+}
+
+static void device_changes_the_stencil_in_three_places(void **state)
+{
+    static const stencil_case cases[] = {
+        { FM_STENCIL_KEEP, 5, 5 },
+        { FM_STENCIL_ZERO, 5, 0 },
+        { FM_STENCIL_REPLACE, 5, 9 },
+        { FM_STENCIL_INCREMENT, 255, 255 },
+        { FM_STENCIL_DECREMENT, 0, 0 },
+        { FM_STENCIL_INVERT, 0x5A, 0xA5 },
+        { FM_STENCIL_INCREMENT_WRAP, 255, 0 },
+        { FM_STENCIL_DECREMENT_WRAP, 0, 255 },
+    };
+    fm_device *device = device_of(state);
+    _Static_assert(sizeof cases / sizeof cases[0] == FM_STENCIL_OP_COUNT, "each operation once");
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const fm_state fails = { .stencil_test = FM_COMPARE_NEVER,
+                                 .stencil_reference = 9,
+                                 .stencil_fail = cases[i].op };
+        const fm_state is_hidden = { .stencil_test = FM_COMPARE_ALWAYS,
+                                     .stencil_reference = 9,
+                                     .depth_test = FM_COMPARE_NEVER,
+                                     .stencil_depth_fail = cases[i].op };
+        const fm_state passes = { .stencil_test = FM_COMPARE_ALWAYS,
+                                  .stencil_reference = 9,
+                                  .stencil_pass = cases[i].op };
+        check_stencil(device, &cases[i], &fails);
+        check_stencil(device, &cases[i], &is_hidden);
+        check_stencil(device, &cases[i], &passes);
+    }
+}
+
 static void device_masks_samples(void **state)
 {
     fm_device *device = device_of(state);
@@ -247,69 +319,6 @@ static void device_counts_samples_that_pass(void **state)
     device->ops->image_destroy(device, depth);
 }
 
-static fm_pipeline *make_flat(fm_device *device)
-{
-    static const char vertex[] = "#version 450\n"
-                                 "layout(location = 0) in vec3 position;\n"
-                                 "layout(location = 1) in uint word;\n"
-                                 "layout(location = 0) flat out uint colour;\n"
-                                 "void main() {\n"
-                                 "  colour = word;\n"
-                                 "  gl_Position = vec4(position, 1.0);\n"
-                                 "}\n";
-    static const char fragment[] = "#version 450\n"
-                                   "layout(location = 0) flat in uint colour;\n"
-                                   "layout(location = 0) out uint target;\n"
-                                   "void main() { target = colour; }\n";
-    return make_pipeline(
-        device,
-        (fm_pipeline_desc){
-            .vertex = vertex,
-            .fragment = fragment,
-            .targets = { { .format = FM_FORMAT_R32UI } },
-            .target_count = 1,
-            .vertex_stride_bytes = 16,
-            .attributes = { { .location = 0, .is_vec3 = true },
-                            { .location = 1, .element = FM_ELEMENT_UINT, .offset_bytes = 12 } },
-            .attribute_count = 2 });
-}
-
-/* Flat attributes come from the first vertex of a triangle, which the indices make vertex 2. */
-static void device_reads_vertices_through_indices(void **state)
-{
-    static const struct {
-        float x, y, z;
-        uint32_t colour;
-    } vertices[] = { { -1, -1, 0.5f, 7 }, { 3, -1, 0.5f, 8 }, { -1, 3, 0.5f, 9 } };
-    static const uint32_t indices[] = { 2, 0, 1 };
-    fm_device *device = device_of(state);
-    uint32_t words[PIXELS];
-    fm_image_resource *target = make_image(device, FM_FORMAT_R32UI, 1);
-    fm_buffer *vertex_buffer =
-        make_buffer(device, (fm_buffer_desc){ .bytes = sizeof vertices, .is_vertex = true });
-    fm_buffer *index_buffer =
-        make_buffer(device, (fm_buffer_desc){ .bytes = sizeof indices, .is_index = true });
-    fm_pipeline *pipeline = make_flat(device);
-    begin(device);
-    device->ops->update(device, vertex_buffer, 0, vertices, sizeof vertices);
-    device->ops->update(device, index_buffer, 0, indices, sizeof indices);
-    draw(device,
-         (fm_draw){ .pipeline = pipeline,
-                    .targets = { target },
-                    .target_loads = { FM_LOAD_CLEAR },
-                    .target_count = 1,
-                    .vertices = vertex_buffer,
-                    .indices = index_buffer },
-         1);
-    end_and_fetch(words, device, target, FETCH_UINT);
-    for (uint32_t i = 0; i < PIXELS; i++)
-        assert_int_equal(words[i], 9);
-    device->ops->pipeline_destroy(device, pipeline);
-    device->ops->buffer_destroy(device, vertex_buffer);
-    device->ops->buffer_destroy(device, index_buffer);
-    device->ops->image_destroy(device, target);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -317,9 +326,9 @@ int main(void)
         ON_EACH_DEVICE(device_keeps_the_nearest_by_depth),
         ON_EACH_DEVICE(device_blends_as_the_interface_says),
         ON_EACH_DEVICE(device_routes_fragments_by_stencil),
+        ON_EACH_DEVICE(device_changes_the_stencil_in_three_places),
         ON_EACH_DEVICE(device_masks_samples),
         ON_EACH_DEVICE(device_counts_samples_that_pass),
-        ON_EACH_DEVICE(device_reads_vertices_through_indices),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

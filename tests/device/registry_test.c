@@ -10,8 +10,7 @@
 
 #include "device/registry.h"
 
-/* ---- two drivers: one with two devices, and one that only opens ---- */
-
+/* A driver with two devices. */
 static fm_status list_two(fm_device_entry *entries, size_t *count, fm_error *err)
 {
     (void)err;
@@ -30,6 +29,7 @@ static fm_status open_nothing(fm_device **device, const fm_device_desc *desc, fm
                    desc->selector != NULL ? desc->selector : "none", desc->validation);
 }
 
+/* One whose devices cannot be told. */
 static fm_status list_none(fm_device_entry *entries, size_t *count, fm_error *err)
 {
     (void)entries, (void)err;
@@ -89,8 +89,6 @@ static void registry_knows_the_feeds_of_devices_that_name_none(void **state)
     assert_int_equal(device_feeds(&twin), FM_FEEDS_FRAGMENTS | FM_FEED_TRIANGLES);
     assert_int_equal(device_feeds(&twine), FM_FEED_FRAMES);
 }
-
-/* ---- names that are not there ---- */
 
 static void expect_unknown(const fm_device_list *list, const char *name, const char *message)
 {
