@@ -26,23 +26,24 @@
 enum { OSMESA_WINDOW_PX = 4 };
 
 struct fm_buffer {
-    GLuint name;
+    GLuint name;    /* owned */
     uint64_t bytes; /* as asked; the storage is rounded up to words, so that fill covers all */
     fm_owner owner;
 };
 
 struct fm_image_resource {
-    GLuint name;
+    GLuint name; /* of a texture; owned */
     fm_format format;
-    uint32_t layers;
-    uint64_t bytes;
+    uint32_t layers; /* 1 or more; more than 1: an array */
+    uint64_t bytes;  /* as booked */
     fm_owner owner;
 };
 
+/* OpenGL has no pipelines: a program, and the state that every draw sets anew. */
 struct fm_pipeline {
     GLuint program;
     GLuint vertex_array; /* 0 for compute */
-    fm_state state;
+    fm_state state;      /* from here on as fm_pipeline_desc has it; samples: 1 or more */
     uint32_t iteration;
     fm_target_desc targets[FM_MAX_TARGETS];
     uint32_t target_count;
@@ -63,28 +64,32 @@ typedef struct osmesa_attachments {
 typedef struct osmesa_limits {
     GLint binding_end[FM_BINDING_STORAGE_IMAGE + 1];
     GLint per_stage[FM_BINDING_STORAGE_IMAGE + 1];
-    GLint texture_px, texture_layers, uniform_bytes;
+    GLint texture_px, texture_layers; /* the largest side, and the most layers, of an image */
+    GLint uniform_bytes;              /* of a block */
 } osmesa_limits;
 
+/* The device. What OpenGL made for it, but for buffers, images and pipelines, ends with its
+ * context. */
 typedef struct osmesa {
-    fm_device base;
-    OSMesaContext context;
+    fm_device base;        /* first: a fm_device is cast to this */
+    OSMesaContext context; /* current on the thread that called osmesa_current last */
     unsigned char window[OSMESA_WINDOW_PX * OSMESA_WINDOW_PX * 4];
-    fm_gl gl;
+    fm_gl gl; /* entry points */
     osmesa_limits limits;
     bool no_timers;
 
-    GLuint draw_framebuffer, clear_framebuffer;
+    GLuint draw_framebuffer;        /* of draws, which keep it from one to the next */
+    GLuint clear_framebuffer;       /* of images that are cleared: attached for that alone */
     osmesa_attachments attachments; /* of draw_framebuffer */
 
     GLuint timestamps[2]; /* begin and end of the running timer */
     GLuint queries[FM_MAX_QUERIES];
-    uint32_t queries_used; /* bit i: queries[i] ran and was not read yet */
-    fm_frame_times times;  /* of the running frame */
-    uint64_t frame_start_ns;
+    uint32_t queries_used;   /* bit i: queries[i] ran and was not read yet */
+    fm_frame_times times;    /* of the running frame */
+    uint64_t frame_start_ns; /* the host's clock at frame_begin */
 
-    uint32_t validation_errors;
-    char first_validation_error[512];
+    uint32_t validation_errors;       /* errors and undefined behaviour that OpenGL told of */
+    char first_validation_error[512]; /* cut if need be */
 } osmesa;
 
 /* context.c. Creates self->context, makes it current and loads self->gl. FM_UNSUPPORTED: no

@@ -28,7 +28,7 @@
 enum {
     VULKAN_TIMESTAMPS_MAX = 2 * 4096, /* two for each interval of a frame */
     VULKAN_OCCLUSIONS_MAX = 4096,     /* draws with a query in a frame */
-    VULKAN_DEVICES_MAX = 16,
+    VULKAN_DEVICES_MAX = 16,          /* that the loader offers; more are not seen */
 };
 
 /* No wait for a GPU is longer: a frame that takes a minute has hung. Software does not hang, it is
@@ -37,8 +37,8 @@ enum {
 
 /* The accesses to a resource since `epoch` began; older ones are complete and visible. */
 typedef struct vulkan_access {
-    uint64_t epoch;
-    VkPipelineStageFlags2 write_stages;
+    uint64_t epoch; /* vulkan.epoch when the rest was noted; another one: nothing is known */
+    VkPipelineStageFlags2 write_stages; /* of the last write; 0: none in this epoch */
     VkAccessFlags2 write_access;
     VkPipelineStageFlags2 read_stages; /* since that write */
     /* Where the last barrier has made the write visible. */
@@ -48,21 +48,21 @@ typedef struct vulkan_access {
 
 struct fm_buffer {
     VkBuffer buffer;
-    VkDeviceMemory memory;
-    void *mapped;   /* NULL: reached through staging */
-    bool is_cached; /* host reads of `mapped` are fast */
-    VkDeviceAddress address;
-    uint64_t bytes; /* as asked */
+    VkDeviceMemory memory;   /* its own, whole */
+    void *mapped;            /* NULL: reached through staging */
+    bool is_cached;          /* host reads of `mapped` are fast */
+    VkDeviceAddress address; /* 0 unless it was asked for */
+    uint64_t bytes;          /* as asked and booked; the VkBuffer is rounded up to words */
     fm_owner owner;
     vulkan_access access;
 };
 
 struct fm_image_resource {
     VkImage image;
-    VkDeviceMemory memory;
-    VkImageView target_view; /* layer 0, all aspects */
-    VkImageView shader_view; /* all layers, colour or depth */
-    VkImageAspectFlags aspects;
+    VkDeviceMemory memory;      /* its own, whole */
+    VkImageView target_view;    /* layer 0, all aspects */
+    VkImageView shader_view;    /* all layers, colour or depth */
+    VkImageAspectFlags aspects; /* all: colour, or depth and perhaps stencil */
     uint32_t width_px, height_px;
     char name[64];  /* in messages */
     bool can_store; /* shaders may store into it: the device could make it so */
@@ -73,56 +73,61 @@ struct fm_image_resource {
 
 struct fm_pipeline {
     VkPipeline pipeline;
-    VkPipelineLayout layout;
-    VkDescriptorSetLayout set_layout;
-    VkPipelineBindPoint bind_point;
+    VkPipelineLayout layout;          /* of one set */
+    VkDescriptorSetLayout set_layout; /* of set 0: what fm_pipeline_desc.bindings say */
+    VkPipelineBindPoint bind_point;   /* compute or graphics */
 };
 
 /* Queries of one kind, given out one after the other during a frame. slot[i] is the caller's timer
  * or query that result i is added to. */
 typedef struct vulkan_query_pool {
     VkQueryPool pool;
-    uint32_t count, capacity;
-    uint8_t *slot;
+    uint32_t count, capacity; /* given out in this frame; that there are */
+    uint8_t *slot;            /* [capacity]; owned */
 } vulkan_query_pool;
 
-/* Descriptor pools of a frame, reset when the next begins. */
+/* Descriptor pools of a frame, reset when the next begins. They are made as they are needed, and
+ * kept: a frame like the last one makes none. */
 typedef struct vulkan_descriptors {
-    VkDescriptorPool *pools;
-    uint32_t count, current;
+    VkDescriptorPool *pools; /* [count]; owned */
+    uint32_t count, current; /* current: where the next set comes from; count: nowhere yet */
 } vulkan_descriptors;
 
+/* What the validation layer said; all zero without it. */
 typedef struct vulkan_validation {
     VkDebugUtilsMessengerEXT messenger;
-    uint32_t errors;
-    char first[1024];
+    uint32_t errors;  /* messages so far */
+    char first[1024]; /* of them, cut if need be */
 } vulkan_validation;
 
+/* The device; zero before open. What stands here is its own, and ends with close. */
 typedef struct vulkan {
-    fm_device base;
+    fm_device base; /* first: a fm_device is cast to this */
     VkInstance instance;
     vulkan_validation validation;
-    VkPhysicalDevice physical;
+    VkPhysicalDevice physical; /* the one that the selector chose */
     VkPhysicalDeviceMemoryProperties memory;
     VkPhysicalDeviceLimits limits;
     VkDevice device;
-    VkQueue queue;
-    uint32_t queue_family;
+    VkQueue queue;         /* one, for graphics and compute */
+    uint32_t queue_family; /* its */
     VkCommandPool commands;
-    VkCommandBuffer frame_commands, transfer_commands;
-    VkFence fence;
+    VkCommandBuffer frame_commands;    /* between frame_begin and frame_end */
+    VkCommandBuffer transfer_commands; /* outside frames: transfer.c */
+    VkFence fence;                     /* of what was submitted last; reset when it is done */
     VkSampler sampler;                 /* nearest: images are read with texelFetch */
     struct shaderc_compiler *compiler; /* kept: starting one parses all that is built in, 20 ms */
-    fm_buffer *staging;
+    fm_buffer *staging;                /* of transfers */
     vulkan_descriptors descriptors;
     vulkan_query_pool timestamps, occlusions;
-    uint64_t timestamp_mask;
-    bool can_store_multisampled, can_query_precisely;
-    bool no_timers;
-    bool timers_overflowed; /* told by frame_end: timers return nothing */
-    bool has_hung; /* the GPU did not answer: its objects are still in use and are left alone */
-    uint64_t epoch;
-    uint64_t frame_start_ns;
+    uint64_t timestamp_mask;     /* bits that a timestamp has; the rest is noise */
+    bool can_store_multisampled; /* shaders, into images of several samples */
+    bool can_query_precisely;    /* occlusion queries count; else they say whether any passed */
+    bool no_timers;              /* asked for, or the queue has no timestamps */
+    bool timers_overflowed;      /* told by frame_end: timers return nothing */
+    bool has_hung;  /* the GPU did not answer: its objects are still in use and are left alone */
+    uint64_t epoch; /* counts full barriers: what a vulkan_access says is of one epoch */
+    uint64_t frame_start_ns; /* the host's clock at frame_begin */
 } vulkan;
 
 /* result.c. "WHAT: device lost (VkResult -4)" with the status that fits; FM_DEVICE_LOST for results
