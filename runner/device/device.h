@@ -288,7 +288,7 @@ typedef struct fm_device_ops {
     fm_status (*dispatch)(fm_device *device, const fm_dispatch *dispatch, fm_error *err);
     /* FM_UNSUPPORTED: attachments that do not fit together, more vertices than the API counts,
      * queries that cannot count exactly, or an image that shaders cannot store into here.
-     * FM_INVALID: an attachment that is too small. */
+     * FM_INVALID, which only Vulkan looks for: an attachment smaller than the area. */
     fm_status (*draw)(fm_device *device, const fm_draw *draw, fm_error *err);
 } fm_device_ops;
 
