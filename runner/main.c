@@ -3,7 +3,7 @@
 
 #include "base/text.h"
 #include "cli/cli.h"
-#include "cli/devices.h"
+#include "devices.h"
 #include "worker/worker.h"
 
 static const struct {
@@ -55,7 +55,7 @@ static int unknown_command(const char *name)
 static int run_command(int index, int argc, char **argv)
 {
     char title[32];
-    const fm_cli cli = { .out = stdout, .talk = stderr, .devices = &cli_devices };
+    const fm_cli cli = { .out = stdout, .talk = stderr, .devices = &program_devices };
     snprintf(title, sizeof title, "%s", commands[index].title);
     argv[0] = title;
     argp_err_exit_status = CLI_USAGE;
@@ -72,7 +72,7 @@ int main(int argc, char **argv)
     }
     const char *name = argv[1];
     if (strcmp(name, "worker") == 0 && argc == 4)
-        return worker_main(argv[2], argv[3], &cli_devices);
+        return worker_main(argv[2], argv[3], &program_devices);
     if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0 || strcmp(name, "help") == 0) {
         write_help(stdout);
         return CLI_DONE;

@@ -1,6 +1,6 @@
 /* The devices of a program, looked up by name.
  *
- * No device is known here. A program writes one list of those that it has (fragmark: cli/devices.c)
+ * No device is known here. A program writes one list of those that it has (fragmark: devices.c)
  * and hands it down to whatever looks devices up; a test may hand down a list of its own. In all
  * functions below the list is borrowed for the call.
  *

@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "cli/devices.h"
+#include "devices.h"
 
 enum { SIDE_PX = 16, PIXELS = SIDE_PX * SIDE_PX };
 
@@ -59,7 +59,7 @@ int dlclose(void *library)
 
 static inline bool is_built(const char *name)
 {
-    return device_find(&cli_devices, name) != NULL;
+    return device_find(&program_devices, name) != NULL;
 }
 
 /* NULL: not on this machine, or not in this build; the reason is printed. */
@@ -67,7 +67,7 @@ static inline fm_device *open_if_there(const char *name, const fm_device_desc *d
 {
     fm_device *device = NULL;
     fm_error err = { .message = "" };
-    const fm_status status = device_open(&device, &cli_devices, name, desc, &err);
+    const fm_status status = device_open(&device, &program_devices, name, desc, &err);
     if (status == FM_UNSUPPORTED || !is_built(name))
         print_message("skipped: %s\n", err.message);
     else if (status != FM_OK)

@@ -10,7 +10,7 @@
 #include <cmocka.h>
 
 #include "base/text.h"
-#include "cli/devices.h"
+#include "devices.h"
 #include "fragmark/technique.h"
 #include "model/feeds.h"
 #include "plan/plan.h"
@@ -68,7 +68,7 @@ static void fixture_create(fixture *with)
 static fm_status expand(fixture *with, const fm_plan_request *request)
 {
     fm_plan_request complete = *request;
-    complete.known_devices = &cli_devices;
+    complete.known_devices = &program_devices;
     plan_free(&with->plan);
     return plan_expand(&with->plan, &complete, &with->list, &with->err);
 }
