@@ -14,4 +14,5 @@ static const fm_device_ops *const built[] = {
     &dummy_device,
 };
 
-const fm_device_list program_devices = { .devices = built, .count = sizeof built / sizeof built[0] };
+const fm_device_list program_devices = { .devices = built,
+                                         .count = sizeof built / sizeof built[0] };

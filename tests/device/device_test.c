@@ -306,9 +306,9 @@ static void device_open_names_what_there_is(void **state)
     fm_device *device = NULL;
     fm_error err = { .message = "" };
     (void)state;
-    assert_int_equal(
-        device_open(&device, &program_devices, "vulcan", &(fm_device_desc){ .selector = NULL }, &err),
-        FM_INVALID);
+    assert_int_equal(device_open(&device, &program_devices, "vulcan",
+                                 &(fm_device_desc){ .selector = NULL }, &err),
+                     FM_INVALID);
     assert_non_null(strstr(err.message, "vulkan"));
 }
 

@@ -74,8 +74,8 @@ static void vulkan_does_not_open_without_room_for_its_staging_buffer(void **stat
     fm_error err = { .message = "" };
     (void)device_of(state); /* there is a driver */
     setenv(REFUSED_FROM, "1", 1);
-    const fm_status status =
-        device_open(&other, &program_devices, "vulkan", &(fm_device_desc){ .selector = NULL }, &err);
+    const fm_status status = device_open(&other, &program_devices, "vulkan",
+                                         &(fm_device_desc){ .selector = NULL }, &err);
     unsetenv(REFUSED_FROM);
     assert_int_equal(status, FM_NO_MEMORY);
     assert_null(other);

@@ -35,9 +35,9 @@ static void vulkan_lists_what_it_opens(void **state)
     count = 0;
     assert_int_equal(vulkan_device.list(entries, &count, NULL), FM_OK);
     assert_int_equal(count, 0);
-    assert_int_equal(
-        device_open(&again, &program_devices, "vulkan:0", &(fm_device_desc){ .selector = NULL }, NULL),
-        FM_OK);
+    assert_int_equal(device_open(&again, &program_devices, "vulkan:0",
+                                 &(fm_device_desc){ .selector = NULL }, NULL),
+                     FM_OK);
     assert_string_equal(again->caps.name, device->caps.name);
     device_close(again);
 }
@@ -64,7 +64,8 @@ static void vulkan_names_its_devices_when_asked_for_another(void **state)
     const fm_device_desc plain = { .selector = NULL };
     assert_int_equal(device_open(&other, &program_devices, "vulkan:99", &plain, &err), FM_INVALID);
     assert_non_null(strstr(err.message, device->caps.name));
-    assert_int_equal(device_open(&other, &program_devices, "vulkan:voodoo", &plain, &err), FM_INVALID);
+    assert_int_equal(device_open(&other, &program_devices, "vulkan:voodoo", &plain, &err),
+                     FM_INVALID);
     assert_non_null(strstr(err.message, "vulkan:voodoo"));
     assert_null(other);
 }
@@ -80,8 +81,8 @@ static void vulkan_without_a_driver_says_how_to_get_one(void **state)
     setenv("VK_DRIVER_FILES", "/nonexistent.json", 1);
     setenv("VK_ICD_FILENAMES", "/nonexistent.json", 1);
     const fm_status listed = vulkan_device.list(&entry, &count, NULL);
-    const fm_status opened =
-        device_open(&device, &program_devices, "vulkan", &(fm_device_desc){ .selector = NULL }, &err);
+    const fm_status opened = device_open(&device, &program_devices, "vulkan",
+                                         &(fm_device_desc){ .selector = NULL }, &err);
     unsetenv("VK_DRIVER_FILES");
     unsetenv("VK_ICD_FILENAMES");
     assert_int_equal(listed, FM_OK);
