@@ -1,13 +1,21 @@
 #include "formats.h"
 
-static const uint32_t bytes_of_format[] = {
-    [FM_FORMAT_NONE] = 0,      [FM_FORMAT_R32UI] = 4, [FM_FORMAT_RG32UI] = 8,
-    [FM_FORMAT_RGBA32UI] = 16, [FM_FORMAT_R32F] = 4,  [FM_FORMAT_RG32F] = 8,
-    [FM_FORMAT_RGBA32F] = 16,  [FM_FORMAT_RGBA8] = 4, [FM_FORMAT_D32F] = 4,
-    [FM_FORMAT_D32F_S8] = 5,
+static const struct format_info {
+    uint32_t bytes;
+    bool has_depth, is_integer;
+} formats[] = {
+    [FM_FORMAT_NONE] = { .bytes = 0 },
+    [FM_FORMAT_R32UI] = { .bytes = 4, .is_integer = true },
+    [FM_FORMAT_RG32UI] = { .bytes = 8, .is_integer = true },
+    [FM_FORMAT_RGBA32UI] = { .bytes = 16, .is_integer = true },
+    [FM_FORMAT_R32F] = { .bytes = 4 },
+    [FM_FORMAT_RG32F] = { .bytes = 8 },
+    [FM_FORMAT_RGBA32F] = { .bytes = 16 },
+    [FM_FORMAT_RGBA8] = { .bytes = 4 },
+    [FM_FORMAT_D32F] = { .bytes = 4, .has_depth = true },
+    [FM_FORMAT_D32F_S8] = { .bytes = 5, .has_depth = true },
 };
-_Static_assert(sizeof bytes_of_format / sizeof bytes_of_format[0] == FM_FORMAT_COUNT,
-               "one a format");
+_Static_assert(sizeof formats / sizeof formats[0] == FM_FORMAT_COUNT, "one row a format");
 
 static const uint32_t bytes_of_element[] = {
     [FM_ELEMENT_UINT] = 4, [FM_ELEMENT_UVEC2] = 8, [FM_ELEMENT_UVEC4] = 16, [FM_ELEMENT_FLOAT] = 4,
@@ -18,7 +26,17 @@ _Static_assert(sizeof bytes_of_element / sizeof bytes_of_element[0] == FM_ELEMEN
 
 uint32_t format_bytes(fm_format format)
 {
-    return bytes_of_format[format];
+    return formats[format].bytes;
+}
+
+bool format_has_depth(fm_format format)
+{
+    return formats[format].has_depth;
+}
+
+bool format_is_integer(fm_format format)
+{
+    return formats[format].is_integer;
 }
 
 uint32_t element_bytes(fm_element element)
