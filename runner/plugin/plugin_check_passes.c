@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "culling_apply.h"
+#include "model/formats.h"
 #include "plugin_check.h"
 
 enum { NAME_MAX_BYTES = 64, MAX_STENCIL = 255 };
@@ -116,7 +117,7 @@ static fm_status check_written(const fm_checked_method *check, const fm_pass *pa
     const fm_resource *r = find_resource(check, name);
     if (r == NULL || r->kind != FM_RESOURCE_IMAGE || pass->kind == FM_PASS_CLEAR)
         return FM_OK;
-    if (check_is_depth_format(r->format) || r->samples > 1 || r->samples_per_k > 0 ||
+    if (format_has_depth(r->format) || r->samples > 1 || r->samples_per_k > 0 ||
         r->samples_option != NULL)
         return fm_fail(err, FM_INVALID,
                        "writes '%s': shaders store into colour images of one sample only", name);
@@ -162,15 +163,10 @@ static fm_status check_attachment(const fm_resource **image, const fm_checked_me
     *image = &check->method->resources[index];
     if ((*image)->kind != FM_RESOURCE_IMAGE)
         return fm_fail(err, FM_INVALID, "%s '%s': is a buffer, not an image", field, name);
-    if (check_is_depth_format((*image)->format) != wants_depth)
+    if (format_has_depth((*image)->format) != wants_depth)
         return fm_fail(err, FM_INVALID, "%s '%s': needs a %s format", field, name,
                        wants_depth ? "depth" : "colour");
     return FM_OK;
-}
-
-static bool is_integer_format(fm_format format)
-{
-    return format == FM_FORMAT_R32UI || format == FM_FORMAT_RG32UI || format == FM_FORMAT_RGBA32UI;
 }
 
 /* Samples of an image: constant + per_k * k + the option's number. */
@@ -215,7 +211,7 @@ static fm_status check_target(const fm_checked_method *check, const fm_target *t
         status = check_range(target->blend, FM_BLEND_COUNT, "target blend", err);
     if (status != FM_OK)
         return status;
-    if (target->blend != FM_BLEND_OFF && is_integer_format(image->format))
+    if (target->blend != FM_BLEND_OFF && format_is_integer(image->format))
         return fm_fail(err, FM_INVALID, "target '%s': integer formats do not blend",
                        target->resource);
     return check_samples(samples, image, err);
