@@ -4,7 +4,7 @@
 #include <inttypes.h>
 #include <string.h>
 
-#include "plugin_check.h"
+#include "check_method.h"
 
 static fm_status check_alone(const fm_checked_method *check, fm_error *err)
 {

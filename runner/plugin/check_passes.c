@@ -1,12 +1,13 @@
-/* Passes and loops of a descriptor. */
+/* Passes of a descriptor: names, shaders, accesses and flags. What they draw into is checked in
+ * check_attachments.c. */
 #include <inttypes.h>
 #include <string.h>
 
+#include "check_method.h"
 #include "culling_apply.h"
 #include "model/formats.h"
-#include "plugin_check.h"
 
-enum { NAME_MAX_BYTES = 64, MAX_STENCIL = 255 };
+enum { NAME_MAX_BYTES = 64 };
 
 /* What a kind of pass may have. */
 typedef struct kind_rule {
@@ -151,130 +152,16 @@ static fm_status check_accesses(const fm_checked_method *check, const fm_pass *p
     return FM_OK;
 }
 
-/* FM_INVALID unless name is an image of the wanted kind. */
-static fm_status check_attachment(const fm_resource **image, const fm_checked_method *check,
-                                  const char *name, bool wants_depth, const char *field,
-                                  fm_error *err)
+static fm_status check_kind_draws(const fm_pass *pass, fm_error *err)
 {
-    size_t index;
-    const fm_status status = check_known(&index, name, field, &check->resources, err);
-    if (status != FM_OK)
-        return status;
-    *image = &check->method->resources[index];
-    if ((*image)->kind != FM_RESOURCE_IMAGE)
-        return fm_fail(err, FM_INVALID, "%s '%s': is a buffer, not an image", field, name);
-    if (format_has_depth((*image)->format) != wants_depth)
-        return fm_fail(err, FM_INVALID, "%s '%s': needs a %s format", field, name,
-                       wants_depth ? "depth" : "colour");
-    return FM_OK;
-}
-
-/* Samples of an image: constant + per_k * k + the option's number. */
-typedef struct sample_formula {
-    uint32_t constant, per_k;
-    const char *option; /* all zero: none yet */
-} sample_formula;
-
-static sample_formula samples_of(const fm_resource *image)
-{
-    const char *option = image->samples_option != NULL ? image->samples_option : "";
-    const bool is_default = image->samples == 0 && image->samples_per_k == 0 && *option == '\0';
-    return (sample_formula){ is_default ? 1 : image->samples, image->samples_per_k, option };
-}
-
-/* All attachments of a pass have the same samples, whatever k is. */
-static fm_status check_samples(sample_formula *samples, const fm_resource *image, fm_error *err)
-{
-    const sample_formula own = samples_of(image);
-    const bool is_first = samples->option == NULL;
-    if (!is_first && (samples->constant != own.constant || samples->per_k != own.per_k))
-        return fm_fail(err, FM_INVALID,
-                       "target '%s': %" PRIu32 " + %" PRIu32 " k samples, the others have %" PRIu32
-                       " + %" PRIu32 " k",
-                       image->name, own.constant, own.per_k, samples->constant, samples->per_k);
-    if (!is_first && strcmp(samples->option, own.option) != 0)
-        return fm_fail(err, FM_INVALID,
-                       "target '%s': samples of option '%s', the others have those of '%s'",
-                       image->name, own.option, samples->option);
-    *samples = own;
-    return FM_OK;
-}
-
-static fm_status check_target(const fm_checked_method *check, const fm_target *target,
-                              sample_formula *samples, fm_error *err)
-{
-    const fm_resource *image = NULL;
-    fm_status status = check_attachment(&image, check, target->resource, false, "target", err);
-    if (status == FM_OK)
-        status = check_range(target->load, FM_LOAD_COUNT, "target load", err);
-    if (status == FM_OK)
-        status = check_range(target->blend, FM_BLEND_COUNT, "target blend", err);
-    if (status != FM_OK)
-        return status;
-    if (target->blend != FM_BLEND_OFF && format_is_integer(image->format))
-        return fm_fail(err, FM_INVALID, "target '%s': integer formats do not blend",
-                       target->resource);
-    return check_samples(samples, image, err);
-}
-
-static fm_status check_targets(const fm_checked_method *check, const fm_pass *pass,
-                               sample_formula *samples, fm_error *err)
-{
-    size_t count;
-    fm_status status = check_list(&count, &pass->targets[0].resource, sizeof pass->targets[0],
-                                  FM_MAX_TARGETS, "targets", err);
-    if (status == FM_OK && count > 0 && !kind_rules[pass->kind].has_targets)
-        return fm_fail(err, FM_INVALID, "targets: a pass of kind %s has none",
-                       kind_rules[pass->kind].name);
-    for (size_t i = 0; status == FM_OK && i < count; i++)
-        status = check_target(check, &pass->targets[i], samples, err);
-    return status;
-}
-
-static fm_status check_state_ranges(const fm_state *s, fm_error *err)
-{
-    fm_status status = check_range(s->depth_stencil_load, FM_LOAD_COUNT, "depth_stencil_load", err);
-    if (status == FM_OK)
-        status = check_range(s->depth_test, FM_COMPARE_COUNT, "depth_test", err);
-    if (status == FM_OK)
-        status = check_range(s->stencil_test, FM_COMPARE_COUNT, "stencil_test", err);
-    if (status == FM_OK)
-        status = check_range(s->stencil_fail, FM_STENCIL_OP_COUNT, "stencil_fail", err);
-    if (status == FM_OK)
-        status = check_range(s->stencil_depth_fail, FM_STENCIL_OP_COUNT, "stencil_depth_fail", err);
-    if (status == FM_OK)
-        status = check_range(s->stencil_pass, FM_STENCIL_OP_COUNT, "stencil_pass", err);
-    if (status == FM_OK)
-        status = check_range(s->stencil_reference, MAX_STENCIL + 1, "stencil_reference", err);
-    return status;
-}
-
-static fm_status check_state(const fm_checked_method *check, const fm_pass *pass,
-                             sample_formula *samples, fm_error *err)
-{
-    const fm_state *s = &pass->state;
-    const fm_resource *image = NULL;
-    fm_status status = check_state_ranges(s, err);
-    if (status != FM_OK)
-        return status;
-    if (s->depth_write && s->depth_test == FM_COMPARE_OFF)
-        return fm_fail(err, FM_INVALID,
-                       "depth_write: needs depth_test, FM_COMPARE_ALWAYS at least");
-    if (s->depth_stencil == NULL) {
-        if (s->depth_test != FM_COMPARE_OFF || s->stencil_test != FM_COMPARE_OFF)
-            return fm_fail(err, FM_INVALID, "depth_test, stencil_test: need depth_stencil");
+    const kind_rule *rule = &kind_rules[pass->kind];
+    if (rule->has_targets)
         return FM_OK;
-    }
-    if (!kind_rules[pass->kind].has_targets)
-        return fm_fail(err, FM_INVALID, "depth_stencil: a pass of kind %s has none",
-                       kind_rules[pass->kind].name);
-    status = check_attachment(&image, check, s->depth_stencil, true, "depth_stencil", err);
-    if (status != FM_OK)
-        return status;
-    if (s->stencil_test != FM_COMPARE_OFF && image->format != FM_FORMAT_D32F_S8)
-        return fm_fail(err, FM_INVALID, "stencil_test: '%s' needs FM_FORMAT_D32F_S8",
-                       s->depth_stencil);
-    return check_samples(samples, image, err);
+    if (pass->targets[0].resource != NULL)
+        return fm_fail(err, FM_INVALID, "targets: a pass of kind %s has none", rule->name);
+    if (pass->state.depth_stencil != NULL)
+        return fm_fail(err, FM_INVALID, "depth_stencil: a pass of kind %s has none", rule->name);
+    return FM_OK;
 }
 
 /* flat_option: an option that can be "flat". */
@@ -361,7 +248,6 @@ static fm_status check_counts(const fm_checked_method *check, const fm_pass *pas
 
 static fm_status check_pass(const fm_checked_method *check, const fm_pass *pass, fm_error *err)
 {
-    sample_formula samples = { 0 };
     fm_status status = check_range(pass->kind, FM_PASS_KIND_COUNT, "kind", err);
     if (status == FM_OK)
         status = check_pass_name(check, pass, err);
@@ -370,9 +256,9 @@ static fm_status check_pass(const fm_checked_method *check, const fm_pass *pass,
     if (status == FM_OK)
         status = check_accesses(check, pass, err);
     if (status == FM_OK)
-        status = check_targets(check, pass, &samples, err);
+        status = check_kind_draws(pass, err);
     if (status == FM_OK)
-        status = check_state(check, pass, &samples, err);
+        status = check_attachments(check, pass, err);
     if (status == FM_OK)
         status = check_flags(check, pass, err);
     if (status == FM_OK)

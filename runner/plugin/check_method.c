@@ -1,4 +1,4 @@
-#include "plugin_check.h"
+#include "check_method.h"
 
 #include <inttypes.h>
 #include <string.h>

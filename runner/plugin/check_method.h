@@ -1,7 +1,7 @@
 /* The parts of plugin_check. Each checks one list of a descriptor, once: after that nobody checks
  * it again. Messages begin with the field; callers put pass and plugin before it. */
-#ifndef FM_PLUGIN_CHECK_H
-#define FM_PLUGIN_CHECK_H
+#ifndef FM_CHECK_METHOD_H
+#define FM_CHECK_METHOD_H
 
 #include "check_words.h"
 
@@ -19,6 +19,8 @@ fm_status check_loops(const fm_checked_method *check, fm_error *err);
 /* For methods of the simulated GPU, instead of resources, totals, passes and loops. */
 fm_status check_technique(const fm_checked_method *check, fm_error *err);
 
+/* Targets and state of one pass, of a kind that draws. */
+fm_status check_attachments(const fm_checked_method *check, const fm_pass *pass, fm_error *err);
 /* Refused unless `name` is an option all of whose values are whole numbers. */
 fm_status check_counting_option(const fm_checked_method *check, const char *name, const char *field,
                                 fm_error *err);

@@ -1,6 +1,6 @@
 /* Loops of a descriptor: ranges of passes that nest and end. */
+#include "check_method.h"
 #include "model/formula.h"
-#include "plugin_check.h"
 
 typedef struct range {
     size_t first, last; /* passes, both counted in */

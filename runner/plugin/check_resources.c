@@ -1,0 +1,191 @@
+/* Resources of a descriptor: extents of buffers, formats of images. */
+#include <inttypes.h>
+#include <string.h>
+
+#include "check_method.h"
+
+enum { NAME_MAX_BYTES = 64, MAX_IMAGE_LAYERS = 2048, MAX_IMAGE_SAMPLES = 16 };
+static const uint64_t max_constant = UINT64_C(1) << 40;
+/* Elements of a pixel, tile, triangle, ...: what multiplies a count of the scene. */
+static const uint64_t max_factor = UINT64_C(1) << 12;
+
+static fm_status check_term(uint64_t factor, const char *name, const char *factor_field,
+                            const char *name_field, fm_error *err)
+{
+    if (factor > 0 && name == NULL)
+        return fm_fail(err, FM_INVALID, "extent.%s: needs extent.%s", factor_field, name_field);
+    if (factor == 0 && name != NULL)
+        return fm_fail(err, FM_INVALID, "extent.%s: needs extent.%s", name_field, factor_field);
+    return FM_OK;
+}
+
+static fm_status check_factors(const uint64_t *factors, size_t count, const char *field,
+                               fm_error *err)
+{
+    for (size_t i = 0; i < count; i++)
+        if (factors[i] > max_factor)
+            return fm_fail(err, FM_INVALID, "%s: a factor of %" PRIu64 ", %" PRIu64 " at most",
+                           field, factors[i], max_factor);
+    return FM_OK;
+}
+
+static fm_status check_extent(const fm_checked_method *check, const fm_extent *e, fm_error *err)
+{
+    const uint64_t factors[] = { e->per_pixel,  e->per_pixel_k,     e->per_pixel_n,
+                                 e->per_tile,   e->per_triangle,    e->per_total,
+                                 e->per_option, e->per_pixel_option };
+    const size_t count = sizeof factors / sizeof factors[0];
+    bool is_zero = e->constant == 0;
+    for (size_t i = 0; i < count; i++)
+        is_zero = is_zero && factors[i] == 0;
+    if (is_zero)
+        return fm_fail(err, FM_INVALID, "extent: all terms are zero: a zero-sized buffer");
+    if (e->constant > max_constant)
+        return fm_fail(err, FM_INVALID, "extent.constant: %" PRIu64 ", %" PRIu64 " at most",
+                       e->constant, max_constant);
+    fm_status status = check_factors(factors, count, "extent", err);
+    if (status == FM_OK)
+        status = check_term(e->per_total, e->total, "per_total", "total", err);
+    if (status == FM_OK)
+        status =
+            check_term(e->per_option + e->per_pixel_option, e->option, "per_option", "option", err);
+    if (status == FM_OK && e->k_step > 0 && e->per_pixel_k == 0)
+        status = fm_fail(err, FM_INVALID, "extent.k_step: needs extent.per_pixel_k");
+    if (status == FM_OK && e->total != NULL) {
+        size_t index;
+        status = check_known(&index, e->total, "extent.total", &check->totals, err);
+    }
+    if (status == FM_OK && e->option != NULL)
+        status = check_counting_option(check, e->option, "extent.option", err);
+    return status;
+}
+
+/* A fixed buffer whose memory another fixed buffer may lie in. */
+static bool can_share(const fm_resource *r)
+{
+    return r->kind == FM_RESOURCE_BUFFER && r->sizing == FM_SIZE_FIXED && !r->ping_pong;
+}
+
+static fm_status check_shares(const fm_checked_method *check, const fm_resource *r, fm_error *err)
+{
+    size_t index;
+    if (r->shares == NULL)
+        return FM_OK;
+    const fm_status status = check_known(&index, r->shares, "shares", &check->resources, err);
+    if (status != FM_OK)
+        return status;
+    const fm_resource *owner = &check->method->resources[index];
+    if (owner == r || owner->shares != NULL || !can_share(r) || !can_share(owner))
+        return fm_fail(err, FM_INVALID,
+                       "shares '%s': both need to be fixed buffers of one copy, and the owner's "
+                       "memory its own",
+                       r->shares);
+    return FM_OK;
+}
+
+static fm_status check_sizing(const fm_checked_method *check, const fm_resource *r, fm_error *err)
+{
+    size_t index;
+    const fm_status status = check_range(r->sizing, FM_SIZE_COUNT, "sizing", err);
+    if (status != FM_OK)
+        return status;
+    if (r->sizing == FM_SIZE_AFTER_TOTAL && r->extent.total == NULL)
+        return fm_fail(err, FM_INVALID, "sizing after a total: needs extent.total");
+    if (r->sizing != FM_SIZE_AFTER_TOTAL && r->extent.total != NULL)
+        return fm_fail(err, FM_INVALID,
+                       "extent.total '%s' is known only after a pass: needs FM_SIZE_AFTER_TOTAL",
+                       r->extent.total);
+    if (r->sizing == FM_SIZE_GROW && r->overflow == NULL)
+        return fm_fail(err, FM_INVALID, "sizing that grows: needs overflow, a total");
+    if (r->sizing != FM_SIZE_GROW && r->overflow != NULL)
+        return fm_fail(err, FM_INVALID, "overflow: only with FM_SIZE_GROW");
+    if (r->overflow != NULL &&
+        check_known(&index, r->overflow, "overflow", &check->totals, err) != FM_OK)
+        return FM_INVALID;
+    return check_shares(check, r, err);
+}
+
+static fm_status check_buffer(const fm_checked_method *check, const fm_resource *r, fm_error *err)
+{
+    fm_status status = check_range(r->element, FM_ELEMENT_COUNT, "element", err);
+    if (status != FM_OK)
+        return status;
+    if (r->format != FM_FORMAT_NONE || r->samples != 0 || r->samples_per_k != 0 || r->layers != 0 ||
+        r->layers_per_k != 0 || r->samples_option != NULL)
+        return fm_fail(err, FM_INVALID, "a buffer has no format, samples or layers");
+    if (r->element == FM_ELEMENT_UINT64 && !(check->method->features & FM_FEATURE_INT64_ATOMICS))
+        return fm_fail(err, FM_INVALID, "element: 64-bit needs FM_FEATURE_INT64_ATOMICS");
+    status = check_extent(check, &r->extent, err);
+    return status == FM_OK ? check_sizing(check, r, err) : status;
+}
+
+static fm_status check_image(const fm_checked_method *check, const fm_resource *r, fm_error *err)
+{
+    const fm_extent none = { 0 };
+    const fm_status status = check_range(r->format, FM_FORMAT_COUNT, "format", err);
+    if (status != FM_OK)
+        return status;
+    if (r->format == FM_FORMAT_NONE)
+        return fm_fail(err, FM_INVALID, "format: missing");
+    if (memcmp(&r->extent, &none, sizeof none) != 0 || r->sizing != FM_SIZE_FIXED ||
+        r->overflow != NULL || r->shares != NULL || r->element != FM_ELEMENT_UINT)
+        return fm_fail(err, FM_INVALID,
+                       "an image has the viewport's size: no element, extent, sizing or overflow");
+    if ((r->samples & (r->samples - 1)) != 0 || r->samples > MAX_IMAGE_SAMPLES)
+        return fm_fail(err, FM_INVALID, "samples: %" PRIu32 ": a power of two, %d at most",
+                       r->samples, MAX_IMAGE_SAMPLES);
+    if (r->samples_per_k > MAX_IMAGE_SAMPLES)
+        return fm_fail(err, FM_INVALID, "samples_per_k: %" PRIu32 ", %d at most", r->samples_per_k,
+                       MAX_IMAGE_SAMPLES);
+    if (r->layers > MAX_IMAGE_LAYERS || r->layers_per_k > MAX_IMAGE_LAYERS)
+        return fm_fail(err, FM_INVALID, "layers: %d at most", MAX_IMAGE_LAYERS);
+    if (!(r->clear_depth >= 0.0f && r->clear_depth <= 1.0f))
+        return fm_fail(err, FM_INVALID, "clear_depth: from 0 to 1");
+    if (r->clear_stencil > UINT8_MAX)
+        return fm_fail(err, FM_INVALID, "clear_stencil: 255 at most");
+    if (r->samples_option != NULL)
+        return check_counting_option(check, r->samples_option, "samples_option", err);
+    return FM_OK;
+}
+
+static fm_status check_resource_name(const fm_checked_method *check, const char *name,
+                                     fm_error *err)
+{
+    const size_t length = strlen(name);
+    if (!check_is_word(name, "_") || length >= NAME_MAX_BYTES)
+        return fm_fail(err, FM_INVALID, "needs lower-case letters, digits and '_'");
+    if (check_is_reserved(name) || strcmp(name, "store") == 0 || strcmp(name, "wanted") == 0)
+        return fm_fail(err, FM_INVALID, "a word that GLSL or the runner reserves");
+    for (size_t i = 0; i < check->resources.count; i++) {
+        const char *other = check->resources.items[i];
+        const size_t other_length = strlen(other);
+        if (check->method->resources[i].ping_pong && length > other_length &&
+            strncmp(name, other, other_length) == 0 &&
+            strcmp(name + other_length, "_previous") == 0)
+            return fm_fail(err, FM_INVALID, "this is the other copy of '%s'", other);
+    }
+    return FM_OK;
+}
+
+static fm_status check_resource(const fm_checked_method *check, const fm_resource *r, fm_error *err)
+{
+    const uint64_t used[] = { r->used.per_pixel, r->used.per_fragment, r->used.per_kept };
+    fm_status status = check_resource_name(check, r->name, err);
+    if (status == FM_OK)
+        status = check_range(r->kind, FM_RESOURCE_KIND_COUNT, "kind", err);
+    if (status == FM_OK)
+        status = check_factors(used, sizeof used / sizeof used[0], "used", err);
+    if (status != FM_OK)
+        return status;
+    return r->kind == FM_RESOURCE_BUFFER ? check_buffer(check, r, err) : check_image(check, r, err);
+}
+
+fm_status check_resources(const fm_checked_method *check, fm_error *err)
+{
+    for (size_t i = 0; i < check->resources.count; i++) {
+        const fm_resource *r = &check->method->resources[i];
+        if (check_resource(check, r, err) != FM_OK)
+            return fm_error_prefix(err, "resource '%s'", r->name);
+    }
+    return FM_OK;
+}
