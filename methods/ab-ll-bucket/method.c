@@ -2,15 +2,6 @@
 
 enum { NODE_WORDS = 3, NODES_PER_PIXEL = 1, BUCKETS = 8 };
 
-/* The pool starts with a node a pixel and grows to one a fragment. */
-static uint64_t bytes(const fm_workload *workload)
-{
-    const uint64_t pixels = (uint64_t)workload->width_px * workload->height_px;
-    const uint64_t initial = pixels * NODES_PER_PIXEL;
-    const uint64_t nodes = workload->fragments > initial ? workload->fragments : initial;
-    return 4 * ((BUCKETS + 2) * pixels + 2 + NODE_WORDS * nodes);
-}
-
 const fm_method_desc fm_method = {
     .abi = FM_ABI,
     .size_bytes = sizeof(fm_method_desc),
@@ -29,6 +20,7 @@ const fm_method_desc fm_method = {
         { .name = "allocated", .extent = { .constant = 2 } }, /* words taken; words without room */
         { .name = "nodes", .extent = { .per_pixel = NODE_WORDS * NODES_PER_PIXEL },
           .sizing = FM_SIZE_GROW, .overflow = "overflow",
+          .grown = { .per_fragment = NODE_WORDS }, /* a node a fragment */
           .used = { .per_fragment = NODE_WORDS } },
     },
     .totals = { { .name = "overflow", .resource = "allocated", .index = 1, .pass = "store" } },
@@ -41,5 +33,4 @@ const fm_method_desc fm_method = {
         { .name = "resolve", .kind = FM_PASS_PIXELS, .shader = "resolve.glsl", .emits = true,
           .reads = { "bounds" }, .writes = { "heads", "nodes" } },
     },
-    .bytes = bytes,
 };

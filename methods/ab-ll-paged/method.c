@@ -1,14 +1,6 @@
 #include "fragmark/method.h"
 
-enum { PAGE_WORDS = 9, OVERFLOW = 0, TAKEN = 1 };
-
-/* The pool starts with a page and grows to what is taken. */
-static uint64_t bytes(const fm_workload *workload)
-{
-    const uint64_t pixels = (uint64_t)workload->width_px * workload->height_px;
-    const uint64_t taken = workload->totals[TAKEN];
-    return 4 * (2 * pixels + 2 + (taken > PAGE_WORDS ? taken : PAGE_WORDS));
-}
+enum { PAGE_WORDS = 9 };
 
 const fm_method_desc fm_method = {
     .abi = FM_ABI,
@@ -26,11 +18,12 @@ const fm_method_desc fm_method = {
         { .name = "counters", .extent = { .per_pixel = 1 }, .used = { .per_pixel = 1 } },
         { .name = "allocated", .extent = { .constant = 2 } }, /* words taken; words without room */
         { .name = "pages", .extent = { .constant = PAGE_WORDS }, .sizing = FM_SIZE_GROW,
-          .overflow = "overflow", .used = { .per_fragment = 2 } },
+          .overflow = "overflow", .grown = { .per_total = 1, .total = "taken" },
+          .used = { .per_fragment = 2 } },
     },
     .totals = {
-        [OVERFLOW] = { .name = "overflow", .resource = "allocated", .index = 1, .pass = "store" },
-        [TAKEN] = { .name = "taken", .resource = "allocated", .index = 0, .pass = "store" },
+        { .name = "overflow", .resource = "allocated", .index = 1, .pass = "store" },
+        { .name = "taken", .resource = "allocated", .index = 0, .pass = "store" },
     },
     .passes = {
         { .name = "clear", .kind = FM_PASS_PIXELS, .shader = "clear.glsl",
@@ -40,5 +33,4 @@ const fm_method_desc fm_method = {
         { .name = "resolve", .kind = FM_PASS_PIXELS, .shader = "resolve.glsl", .emits = true,
           .reads = { "heads", "counters" }, .writes = { "pages" } },
     },
-    .bytes = bytes,
 };

@@ -56,6 +56,7 @@ uint64_t formula_elements(const fm_method_desc *method, const fm_extent *extent,
         product_of(extent->per_total, total >= 0 ? workload->totals[total] : 0),
         product_of(extent->per_option, option),
         product_of(product_of(extent->per_pixel_option, pixels), option),
+        product_of(extent->per_fragment, workload->fragments),
     };
     uint64_t elements = extent->constant;
     for (size_t i = 0; i < sizeof terms / sizeof terms[0]; i++)
@@ -116,25 +117,27 @@ uint64_t formula_buffer_bytes(const fm_method_desc *method, const fm_resource *r
     return bytes;
 }
 
-static bool is_runners(const fm_resource *resource)
+/* As formula_buffer_bytes, for a pool that grows once a frame has shown how much it needs. */
+static uint64_t booked_bytes(const fm_method_desc *method, const fm_resource *resource,
+                             const fm_workload *workload)
 {
-    return strncmp(resource->name, "fm_", 3) == 0;
+    if (resource->kind == FM_RESOURCE_IMAGE)
+        return formula_image_bytes(resource, workload);
+    const uint64_t first = formula_buffer_bytes(method, resource, workload);
+    const uint64_t grown = product_of(formula_elements(method, &resource->grown, workload),
+                                      element_bytes(resource->element));
+    return grown > first ? grown : first;
 }
 
 uint64_t formula_bytes(const fm_method_desc *method, const fm_workload *workload)
 {
-    uint64_t bytes = method->bytes != NULL ? method->bytes(workload) : 0;
+    uint64_t bytes = 0;
     for (int i = 0; i < FM_MAX_RESOURCES && method->resources[i].name != NULL; i++) {
         const fm_resource *resource = &method->resources[i];
-        if (resource->shares != NULL)
-            continue;
-        uint64_t one = resource->kind == FM_RESOURCE_IMAGE
-                           ? formula_image_bytes(resource, workload)
-                           : formula_buffer_bytes(method, resource, workload);
-        if (method->bytes != NULL && !is_runners(resource)) /* the hook counts all but sharers */
-            one -=
-                resource->kind == FM_RESOURCE_IMAGE ? one : own_bytes(method, resource, workload);
-        bytes = formula_sum(bytes, product_of(one, resource->ping_pong ? 2 : 1));
+        const uint64_t copies = resource->ping_pong ? 2 : 1;
+        if (resource->shares == NULL)
+            bytes =
+                formula_sum(bytes, product_of(booked_bytes(method, resource, workload), copies));
     }
     return bytes;
 }

@@ -18,8 +18,8 @@ uint64_t formula_used_bytes(const fm_resource *resource, const fm_workload *work
  * its. */
 uint64_t formula_buffer_bytes(const fm_method_desc *method, const fm_resource *resource,
                               const fm_workload *workload);
-/* All resources, without the runner's spin locks; or what the hook `bytes` says, and the runner's
- * own resources (their names begin with fm_) beside it. */
+/* Bytes of all resources of a method once a frame has sized them, pools as grown as they get: what
+ * the column bytes_predicted says. The runner's spin locks are not in it. */
 uint64_t formula_bytes(const fm_method_desc *method, const fm_workload *workload);
 
 bool loop_is_counted(const fm_loop *loop);

@@ -109,8 +109,10 @@ static fm_status check_all(const fm_method_desc *method, fm_error *err)
                                 .passes = { .what = "pass", .list = "passes" } };
     if (method->abi != FM_ABI)
         return fm_fail(err, FM_INVALID,
-                       "abi: the plugin has %" PRIu32 ", this program takes %u: build it again",
-                       method->abi, FM_ABI);
+                       "abi: the plugin has %" PRIu32 ", which is %s than this program's %u: build "
+                       "it again%s",
+                       method->abi, method->abi < FM_ABI ? "older" : "newer", FM_ABI,
+                       method->abi < FM_ABI ? "; CHANGELOG.md says what changed" : "");
     if (method->size_bytes != sizeof *method)
         return fm_fail(err, FM_INVALID,
                        "size_bytes: the plugin has %" PRIu32 ", this program takes %zu",

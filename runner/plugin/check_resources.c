@@ -1,5 +1,6 @@
 /* Resources of a descriptor: extents of buffers, formats of images. */
 #include <inttypes.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "check_method.h"
@@ -9,13 +10,16 @@ static const uint64_t max_constant = UINT64_C(1) << 40;
 /* Elements of a pixel, tile, triangle, ...: what multiplies a count of the scene. */
 static const uint64_t max_factor = UINT64_C(1) << 12;
 
+/* `field` is "extent" or "grown", in messages. */
 static fm_status check_term(uint64_t factor, const char *name, const char *factor_field,
-                            const char *name_field, fm_error *err)
+                            const char *name_field, const char *field, fm_error *err)
 {
     if (factor > 0 && name == NULL)
-        return fm_fail(err, FM_INVALID, "extent.%s: needs extent.%s", factor_field, name_field);
+        return fm_fail(err, FM_INVALID, "%s.%s: needs %s.%s", field, factor_field, field,
+                       name_field);
     if (factor == 0 && name != NULL)
-        return fm_fail(err, FM_INVALID, "extent.%s: needs extent.%s", name_field, factor_field);
+        return fm_fail(err, FM_INVALID, "%s.%s: needs %s.%s", field, name_field, field,
+                       factor_field);
     return FM_OK;
 }
 
@@ -29,35 +33,62 @@ static fm_status check_factors(const uint64_t *factors, size_t count, const char
     return FM_OK;
 }
 
+static fm_status check_extent_values(const fm_extent *e, const char *field, fm_error *err)
+{
+    const uint64_t factors[] = { e->per_pixel,  e->per_pixel_k,      e->per_pixel_n,
+                                 e->per_tile,   e->per_triangle,     e->per_total,
+                                 e->per_option, e->per_pixel_option, e->per_fragment };
+    if (e->constant > max_constant)
+        return fm_fail(err, FM_INVALID, "%s.constant: %" PRIu64 ", %" PRIu64 " at most", field,
+                       e->constant, max_constant);
+    if (e->k_step > 0 && e->per_pixel_k == 0)
+        return fm_fail(err, FM_INVALID, "%s.k_step: needs %s.per_pixel_k", field, field);
+    return check_factors(factors, sizeof factors / sizeof factors[0], field, err);
+}
+
+static fm_status check_extent_names(const fm_checked_method *check, const fm_extent *e,
+                                    const char *field, fm_error *err)
+{
+    char name[32];
+    size_t index;
+    fm_status status = check_term(e->per_total, e->total, "per_total", "total", field, err);
+    if (status == FM_OK)
+        status = check_term(e->per_option + e->per_pixel_option, e->option, "per_option", "option",
+                            field, err);
+    snprintf(name, sizeof name, "%s.total", field);
+    if (status == FM_OK && e->total != NULL)
+        status = check_known(&index, e->total, name, &check->totals, err);
+    snprintf(name, sizeof name, "%s.option", field);
+    if (status == FM_OK && e->option != NULL)
+        status = check_counting_option(check, e->option, name, err);
+    return status;
+}
+
+static bool is_zero(const fm_extent *e)
+{
+    return (e->constant | e->per_pixel | e->per_pixel_k | e->per_pixel_n | e->per_tile |
+            e->per_triangle | e->per_total | e->per_option | e->per_pixel_option |
+            e->per_fragment) == 0;
+}
+
 static fm_status check_extent(const fm_checked_method *check, const fm_extent *e, fm_error *err)
 {
-    const uint64_t factors[] = { e->per_pixel,  e->per_pixel_k,     e->per_pixel_n,
-                                 e->per_tile,   e->per_triangle,    e->per_total,
-                                 e->per_option, e->per_pixel_option };
-    const size_t count = sizeof factors / sizeof factors[0];
-    bool is_zero = e->constant == 0;
-    for (size_t i = 0; i < count; i++)
-        is_zero = is_zero && factors[i] == 0;
-    if (is_zero)
+    if (is_zero(e))
         return fm_fail(err, FM_INVALID, "extent: all terms are zero: a zero-sized buffer");
-    if (e->constant > max_constant)
-        return fm_fail(err, FM_INVALID, "extent.constant: %" PRIu64 ", %" PRIu64 " at most",
-                       e->constant, max_constant);
-    fm_status status = check_factors(factors, count, "extent", err);
-    if (status == FM_OK)
-        status = check_term(e->per_total, e->total, "per_total", "total", err);
-    if (status == FM_OK)
-        status =
-            check_term(e->per_option + e->per_pixel_option, e->option, "per_option", "option", err);
-    if (status == FM_OK && e->k_step > 0 && e->per_pixel_k == 0)
-        status = fm_fail(err, FM_INVALID, "extent.k_step: needs extent.per_pixel_k");
-    if (status == FM_OK && e->total != NULL) {
-        size_t index;
-        status = check_known(&index, e->total, "extent.total", &check->totals, err);
-    }
-    if (status == FM_OK && e->option != NULL)
-        status = check_counting_option(check, e->option, "extent.option", err);
-    return status;
+    if (e->per_fragment != 0)
+        return fm_fail(err, FM_INVALID,
+                       "extent.per_fragment: only `grown` has it: before a frame nobody has "
+                       "counted its fragments");
+    const fm_status status = check_extent_values(e, "extent", err);
+    return status == FM_OK ? check_extent_names(check, e, "extent", err) : status;
+}
+
+static fm_status check_grown(const fm_checked_method *check, const fm_resource *r, fm_error *err)
+{
+    if (r->sizing != FM_SIZE_GROW && !is_zero(&r->grown))
+        return fm_fail(err, FM_INVALID, "grown: only with FM_SIZE_GROW");
+    const fm_status status = check_extent_values(&r->grown, "grown", err);
+    return status == FM_OK ? check_extent_names(check, &r->grown, "grown", err) : status;
 }
 
 /* A fixed buffer whose memory another fixed buffer may lie in. */
@@ -102,6 +133,8 @@ static fm_status check_sizing(const fm_checked_method *check, const fm_resource 
     if (r->overflow != NULL &&
         check_known(&index, r->overflow, "overflow", &check->totals, err) != FM_OK)
         return FM_INVALID;
+    if (check_grown(check, r, err) != FM_OK)
+        return FM_INVALID;
     return check_shares(check, r, err);
 }
 
@@ -127,8 +160,9 @@ static fm_status check_image(const fm_checked_method *check, const fm_resource *
         return status;
     if (r->format == FM_FORMAT_NONE)
         return fm_fail(err, FM_INVALID, "format: missing");
-    if (memcmp(&r->extent, &none, sizeof none) != 0 || r->sizing != FM_SIZE_FIXED ||
-        r->overflow != NULL || r->shares != NULL || r->element != FM_ELEMENT_UINT)
+    if (memcmp(&r->extent, &none, sizeof none) != 0 || memcmp(&r->grown, &none, sizeof none) != 0 ||
+        r->sizing != FM_SIZE_FIXED || r->overflow != NULL || r->shares != NULL ||
+        r->element != FM_ELEMENT_UINT)
         return fm_fail(err, FM_INVALID,
                        "an image has the viewport's size: no element, extent, sizing or overflow");
     if ((r->samples & (r->samples - 1)) != 0 || r->samples > MAX_IMAGE_SAMPLES)

@@ -12,11 +12,10 @@ static fm_status check_alone(const fm_checked_method *check, fm_error *err)
     if (m->feeds != FM_FEED_FRAMES)
         return fm_fail(err, FM_INVALID, "technique: feeds has to be 'frames' alone");
     if (check->resources.count + check->totals.count + check->passes.count > 0 ||
-        m->loops[0].first != NULL || m->bytes != NULL || m->after != NULL)
+        m->loops[0].first != NULL || m->after != NULL)
         return fm_fail(
             err, FM_INVALID,
-            "technique: resources, totals, passes, loops, bytes and after are for methods "
-            "of passes");
+            "technique: resources, totals, passes, loops and after are for methods of passes");
     if (m->keeps != FM_KEEPS_NEAREST)
         return fm_fail(err, FM_INVALID, "technique: keeps has to be FM_KEEPS_NEAREST");
     return FM_OK;

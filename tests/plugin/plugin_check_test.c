@@ -132,7 +132,9 @@ static void plugin_check_works_without_an_error(void **state)
 static void plugin_check_rejects_bad_heads(void **state)
 {
     (void)state;
-    REFUSES(m.abi = 0, "abi");
+    REFUSES(m.abi = 0, "abi: the plugin has 0");
+    REFUSES(m.abi = FM_ABI - 1, "older than this program's");
+    REFUSES(m.abi = FM_ABI + 1, "newer than this program's");
     REFUSES(m.size_bytes--, "size_bytes");
     REFUSES(m.id = NULL, "id");
     REFUSES(m.id = "", "id");
@@ -222,6 +224,14 @@ static void plugin_check_rejects_bad_buffers(void **state)
     REFUSES(m.resources[POOL].extent.k_step = 2, "extent.k_step: needs extent.per_pixel_k");
     REFUSES(m.options[1].values[1] = "1048577", "no whole number up to 1048576");
     REFUSES(m.resources[POOL].samples_option = "pages", "a buffer has no");
+    REFUSES(m.resources[POOL].extent.per_fragment = 1, "extent.per_fragment: only `grown` has it");
+    REFUSES(m.resources[POOL].grown.per_total = 1, "grown.per_total: needs grown.total");
+    REFUSES((m.resources[POOL].grown.per_total = 1, m.resources[POOL].grown.total = "stord"),
+            "grown.total 'stord': no such total; nearest is 'stored'");
+    REFUSES(m.resources[POOL].grown.per_fragment = 4097, "grown: a factor of 4097, 4096 at most");
+    REFUSES(m.resources[COUNTS].grown.per_pixel = 1, "grown: only with FM_SIZE_GROW");
+    REFUSES(m.resources[COLOUR].grown.per_pixel = 1, "viewport's size");
+    ACCEPTS((m.resources[POOL].grown.per_fragment = 3));
     REFUSES(m.resources[POOL].overflow = NULL, "needs overflow");
     REFUSES(m.resources[POOL].overflow = "no-rom", "nearest is 'no-room'");
     REFUSES(m.resources[COUNTS].overflow = "no-room", "only with FM_SIZE_GROW");

@@ -59,7 +59,7 @@
 
 #include "status.h"
 
-#define FM_ABI 4u
+#define FM_ABI 5u
 
 enum {
     FM_MAX_OPTIONS = 8,
@@ -161,6 +161,7 @@ typedef struct fm_extent {
     uint64_t per_pixel;
     uint64_t per_pixel_k;
     uint64_t per_pixel_n;
+    uint64_t per_fragment; /* F, all fragments of the frame; fm_resource.grown only */
     uint64_t per_tile;     /* FM_TILE_PX squares of the viewport, border tiles counted */
     uint64_t per_triangle; /* of the scene, instances counted */
     uint64_t per_total;
@@ -226,6 +227,8 @@ typedef struct fm_resource {
     fm_extent extent;   /* buffers, in elements */
     fm_sizing sizing;   /* buffers */
     const char *overflow;
+    fm_extent grown;    /* FM_SIZE_GROW: elements that a frame needs in the end. The larger of this
+                           and `extent` is booked; all zero is `extent` */
     const char *shares; /* fixed buffers: lies in the memory of this other fixed buffer, which gets
                            the larger of both sizes; what the one holds is gone once a pass writes
                            the other, and a clear pass fills all of it */
@@ -385,7 +388,7 @@ typedef struct fm_loop {
     const char *count_option;
 } fm_loop;
 
-/* What is known when a frame starts; what bytes() and after() are told. */
+/* What is known when a frame starts; what after() is told. */
 typedef struct fm_workload {
     uint32_t width_px, height_px;
     uint32_t k; /* as the method uses it */
@@ -428,7 +431,6 @@ typedef struct fm_method_desc {
     fm_loop loops[FM_MAX_LOOPS];
 
     /* Hooks, for what data cannot say. */
-    uint64_t (*bytes)(const fm_workload *);                  /* NULL: what the extents say */
     fm_next (*after)(const fm_workload *, const char *pass); /* NULL: FM_NEXT */
 
     /* FM_KEEPS_K_NEAREST only: the total that is the frame's k where the method chooses it, from 1
