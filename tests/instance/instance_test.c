@@ -1,9 +1,7 @@
 /* Loops, ping-pong copies and includes, as descriptors use them, on shaders written by the test. */
 #include <stdio.h>
-#include <unistd.h>
 
-#include "instance/instance.h"
-#include "kit/scene_kit.h"
+#include "kit/frame_kit.h"
 
 #define HEAD .id = "looped", .traits = FM_TRAIT_FLOOR
 
@@ -34,107 +32,31 @@ static const char number_file[] =
     "void number(uvec2 pixel)\n{\n    uint i = fm_pixel_index(pixel);\n"
     "    if (i < fm_length_many)\n        many[i] = i;\n}\n";
 
-static const struct {
-    const char *name, *text;
-} files[] = { { "one.glsl", add_one },        { "hundred.glsl", add_hundred },
-              { "result.glsl", result_file }, { "step.glsl", step_file },
-              { "take.glsl", take_file },     { "vote.glsl", vote_file },
-              { "wide.glsl", wide_file },     { "more.glsl", more_file },
-              { "number.glsl", number_file } };
-enum { FILE_COUNT = sizeof files / sizeof files[0] };
+static const kit_file files[] = { { "one.glsl", add_one },        { "hundred.glsl", add_hundred },
+                                  { "result.glsl", result_file }, { "step.glsl", step_file },
+                                  { "take.glsl", take_file },     { "vote.glsl", vote_file },
+                                  { "wide.glsl", wide_file },     { "more.glsl", more_file },
+                                  { "number.glsl", number_file } };
 
-static void write_files(char folder[32])
+static kit_frames frames_of(const fm_method_desc *method)
 {
-    char path[64];
-    assert_non_null(mkdtemp(folder));
-    for (size_t i = 0; i < FILE_COUNT; i++) {
-        snprintf(path, sizeof path, "%s/%s", folder, files[i].name);
-        assert_int_equal(text_write_file(path, files[i].text, strlen(files[i].text), NULL), FM_OK);
-    }
-}
-
-static void remove_files(const char *folder)
-{
-    char path[64];
-    for (size_t i = 0; i < FILE_COUNT; i++) {
-        snprintf(path, sizeof path, "%s/%s", folder, files[i].name);
-        unlink(path);
-    }
-    rmdir(folder);
-}
-
-typedef struct frames_seen {
-    uint32_t redos;  /* of the last frame */
-    uint64_t length; /* of the last resource, after it */
-    uint32_t last;   /* its last element */
-} frames_seen;
-
-static const char *last_resource(const fm_method_desc *method)
-{
-    size_t count = 0;
-    while (count < FM_MAX_RESOURCES && method->resources[count].name != NULL)
-        count++;
-    return method->resources[count - 1].name;
-}
-
-/* Runs frames of the method on an empty scene and reads result[0]. */
-static fm_status try_frames(uint32_t *word, frames_seen *seen, fm_device *device,
-                            const fm_method_desc *method, fm_buffers buffers, int frames,
-                            fm_error *err)
-{
-    char folder[32] = "/tmp/fm-instance-XXXXXX";
-    scene_kit kit;
-    kit_scene scene;
-    fm_stage *stage = NULL;
-    fm_instance *instance = NULL;
-    fm_frame_result result;
-    write_files(folder);
-    kit_open(&kit, device);
-    kit_scene_open(&scene, &kit, "width_px=3 height_px=2 n=0");
-    fm_settings settings = scene.scene->settings;
-    settings.buffers = buffers;
-    const fm_instance_desc desc = { .method = method,
-                                    .folders = { folder, kit.plugins.common_folder },
-                                    .settings = &settings };
-    fm_status status = stage_create(&stage, device, scene.scene, scene.truth, FM_FEED_RASTER, err);
-    fm_instance_desc full = desc;
-    full.stage = stage;
-    if (status == FM_OK)
-        status = instance_create(&instance, &full, err);
-    for (int i = 0; i < frames && status == FM_OK; i++)
-        status = instance_frame(&result, instance, NULL, err);
-    if (status == FM_OK)
-        status = device->ops->buffer_read(device, instance_slot(instance, "result")->buffer, 0,
-                                          word, sizeof *word, err);
-    if (status == FM_OK) {
-        const char *last = last_resource(method);
-        const fm_slot *slot = instance_slot(instance, last);
-        *seen = (frames_seen){ .redos = result.redos, .length = slot->length };
-        status = device->ops->buffer_read(device, slot->buffer, (slot->length - 1) * 4, &seen->last,
-                                          sizeof seen->last, err);
-    }
-    instance_destroy(instance);
-    stage_destroy(stage);
-    kit_scene_close(&scene);
-    kit_close(&kit);
-    remove_files(folder);
-    return status;
-}
-
-static fm_status try_frame(uint32_t *word, fm_device *device, const fm_method_desc *method,
-                           fm_buffers buffers, fm_error *err)
-{
-    frames_seen ignored;
-    return try_frames(word, &ignored, device, method, buffers, 1, err);
+    return (kit_frames){ .method = method,
+                         .files = files,
+                         .file_count = sizeof files / sizeof files[0] };
 }
 
 static uint32_t run_frame(fm_device *device, const fm_method_desc *method, fm_buffers buffers)
 {
-    uint32_t word = 0;
-    fm_error err = { 0 };
-    if (try_frame(&word, device, method, buffers, &err) != FM_OK)
-        fail_msg("%s", err.message);
-    return word;
+    kit_frames frames = frames_of(method);
+    frames.buffers = buffers;
+    return frames_run(device, &frames);
+}
+
+static fm_status try_frame(fm_device *device, const fm_method_desc *method, fm_error *err)
+{
+    frames_seen ignored;
+    const kit_frames frames = frames_of(method);
+    return frames_try(&ignored, device, &frames, err);
 }
 
 static fm_next until_three(const fm_workload *workload, const char *pass)
@@ -179,6 +101,72 @@ static void loops_that_start_together_nest(void **state)
                    { .first = "one", .last = "hundred", .count = 2 } },
     };
     assert_int_equal(run_frame(*state, &method, FM_BUFFERS_AUTO), 2 * (3 * 1 + 100));
+}
+
+/* The hook sees 1 in the first frame and asks for another one, which finds 6. */
+static fm_next until_six(const fm_workload *workload, const char *pass)
+{
+    assert_string_equal(pass, "ask");
+    return workload->totals[0] == 6 ? FM_NEXT : FM_REDO;
+}
+
+static void a_hook_may_ask_for_the_frame_again(void **state)
+{
+    static const fm_method_desc method = {
+        HEAD,
+        .resources = { { .name = "result", .extent = { .constant = 1 } } },
+        .totals = { { .name = "sum", .resource = "result", .pass = "more" } },
+        .passes = { { .name = "more",
+                      .kind = FM_PASS_PIXELS,
+                      .shader = "more.glsl",
+                      .writes = { "result" } },
+                    { .name = "ask", .kind = FM_PASS_HOST } },
+        .after = until_six,
+    };
+    frames_seen seen;
+    fm_error err = { 0 };
+    const kit_frames frames = frames_of(&method);
+    assert_int_equal(frames_try(&seen, *state, &frames, &err), FM_OK);
+    assert_int_equal(seen.redos, 1);
+    assert_int_equal(seen.result, 6);
+}
+
+/* A hook that is never content is stopped, and told of. */
+static fm_next again(const fm_workload *workload, const char *pass)
+{
+    (void)workload;
+    (void)pass;
+    return FM_REDO;
+}
+
+static void a_hook_that_asks_for_ever_is_refused(void **state)
+{
+    static const fm_method_desc method = {
+        HEAD,
+        .resources = { { .name = "result", .extent = { .constant = 1 } } },
+        .passes = { { .name = "ask", .kind = FM_PASS_HOST } },
+        .after = again,
+    };
+    fm_error err = { 0 };
+    assert_int_equal(try_frame(*state, &method, &err), FM_INVALID);
+    assert_non_null(strstr(err.message, "looped: asked for the frame again"));
+}
+
+static void a_loop_may_count_the_fragments_of_a_pixel(void **state)
+{
+    static const fm_method_desc method = {
+        HEAD,
+        .resources = { { .name = "result", .extent = { .constant = 1 } } },
+        .passes = { { .name = "clear", .kind = FM_PASS_CLEAR, .writes = { "result" } },
+                    { .name = "one",
+                      .kind = FM_PASS_PIXELS,
+                      .shader = "one.glsl",
+                      .writes = { "result" } } },
+        .loops = { { .first = "one", .last = "one", .count = 1, .count_per_n = 2 } },
+    };
+    kit_frames frames = frames_of(&method);
+    frames.scene = "width_px=3 height_px=2 n=5 pixel_density=1";
+    assert_int_equal(frames_run(*state, &frames), 1 + 2 * 5);
 }
 
 static const fm_method_desc ping_pong = {
@@ -236,10 +224,9 @@ static void a_method_that_asks_for_ballots_has_their_words(void **state)
 
 static void only_a_method_that_asks_for_64_bits_has_them(void **state)
 {
-    uint32_t word = 0;
     fm_error err = { 0 };
     const fm_method_desc method = one_pass("wide", "wide.glsl", 0);
-    assert_int_equal(try_frame(&word, *state, &method, FM_BUFFERS_AUTO, &err), FM_SHADER);
+    assert_int_equal(try_frame(*state, &method, &err), FM_SHADER);
     assert_non_null(strstr(err.message, "uint64_t"));
 }
 
@@ -249,11 +236,10 @@ static void an_extent_beyond_64_bits_is_no_memory(void **state)
     static const fm_extent extents[] = { { .per_pixel = (UINT64_C(1) << 63) / 3 + 1 },
                                          { .constant = UINT64_MAX, .per_pixel = 1 } };
     for (size_t i = 0; i < sizeof extents / sizeof extents[0]; i++) {
-        uint32_t word = 0;
         fm_error err = { 0 };
         fm_method_desc method = ping_pong;
         method.resources[1].extent = extents[i];
-        assert_int_equal(try_frame(&word, *state, &method, FM_BUFFERS_AUTO, &err), FM_NO_MEMORY);
+        assert_int_equal(try_frame(*state, &method, &err), FM_NO_MEMORY);
         assert_non_null(strstr(err.message, "'value'"));
     }
 }
@@ -278,13 +264,15 @@ static void a_late_total_runs_the_frame_again_that_it_had_no_room_in(void **stat
                       .shader = "number.glsl",
                       .writes = { "many" } } },
     };
-    static const frames_seen expected[] = { { 0, 1, 0 }, { 1, 6, 5 }, { 0, 6, 5 } };
+    static const frames_seen expected[] = { { .length = 1 },
+                                            { .redos = 1, .length = 6, .last = 5 },
+                                            { .length = 6, .last = 5 } };
     for (int i = 0; i < 3; i++) {
-        uint32_t word = 0;
         fm_error err = { 0 };
-        frames_seen seen = { 0 };
-        assert_int_equal(try_frames(&word, &seen, *state, &method, FM_BUFFERS_AUTO, i + 1, &err),
-                         FM_OK);
+        frames_seen seen;
+        kit_frames frames = frames_of(&method);
+        frames.frames = i + 1;
+        assert_int_equal(frames_try(&seen, *state, &frames, &err), FM_OK);
         assert_int_equal(seen.redos, expected[i].redos);
         assert_int_equal(seen.length, expected[i].length);
         assert_int_equal(seen.last, expected[i].last);
@@ -361,6 +349,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         ON_VULKAN_AND_OSMESA(loop_without_count_runs_until_the_hook_lets_go),
         ON_VULKAN_AND_OSMESA(loops_that_start_together_nest),
+        ON_VULKAN_AND_OSMESA(a_hook_may_ask_for_the_frame_again),
+        ON_VULKAN_AND_OSMESA(a_hook_that_asks_for_ever_is_refused),
+        ON_VULKAN_AND_OSMESA(a_loop_may_count_the_fragments_of_a_pixel),
         ON_VULKAN_AND_OSMESA(an_iteration_reads_what_the_last_one_wrote),
         ON_VULKAN_AND_OSMESA(an_iteration_reads_what_the_last_one_wrote_by_address),
         ON_VULKAN_AND_OSMESA(a_method_that_asks_for_ballots_has_their_words),
