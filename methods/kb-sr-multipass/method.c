@@ -1,7 +1,5 @@
 #include "fragmark/method.h"
 
-#include <math.h>
-
 const fm_method_desc fm_method = {
     .abi = FM_ABI,
     .size_bytes = sizeof(fm_method_desc),
@@ -20,7 +18,7 @@ const fm_method_desc fm_method = {
                    .help = "fragments of a pixel that one pass keeps: samples of the device" } },
     .resources = {
         { .name = "routed", .kind = FM_RESOURCE_IMAGE, .format = FM_FORMAT_RG32UI,
-          .samples_option = "samples", .clear_colour = { INFINITY } }, /* bits: FM_EMPTY_BITS */
+          .samples_option = "samples", .clear_words = { 0x7F800000u } }, /* FM_EMPTY_BITS */
         { .name = "stencil", .kind = FM_RESOURCE_IMAGE, .format = FM_FORMAT_D32F_S8,
           .samples_option = "samples", .clear_stencil = 2 },
         { .name = "boundary", .extent = { .per_pixel = 1 }, .used = { .per_pixel = 1 } },

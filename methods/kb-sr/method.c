@@ -1,7 +1,5 @@
 #include "fragmark/method.h"
 
-#include <math.h>
-
 const fm_method_desc fm_method = {
     .abi = FM_ABI,
     .size_bytes = sizeof(fm_method_desc),
@@ -18,7 +16,7 @@ const fm_method_desc fm_method = {
     .marker = FM_MARKER_SQUARE,
     .resources = {
         { .name = "routed", .kind = FM_RESOURCE_IMAGE, .format = FM_FORMAT_RG32UI,
-          .samples_per_k = 1, .clear_colour = { INFINITY } }, /* its bits: FM_EMPTY_BITS */
+          .samples_per_k = 1, .clear_words = { 0x7F800000u } }, /* FM_EMPTY_BITS */
         { .name = "stencil", .kind = FM_RESOURCE_IMAGE, .format = FM_FORMAT_D32F_S8,
           .samples_per_k = 1, .clear_stencil = 2 },
     },

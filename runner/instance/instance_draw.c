@@ -47,13 +47,24 @@ static fm_image_resource *current_image(fm_instance *instance, const char *name,
     return resource_slot(instance, ref)->image;
 }
 
+/* The bits of each channel of an image's clear value: floats, or words of an integer format. */
+static void clear_bits(float bits[4], const fm_resource *resource)
+{
+    static const uint32_t none[4] = { 0 };
+    const bool has_words = memcmp(resource->clear_words, none, sizeof none) != 0;
+    const void *source = resource->clear_colour;
+    if (has_words)
+        source = resource->clear_words;
+    memcpy(bits, source, sizeof none);
+}
+
 static void fill_targets(fm_draw *draw, fm_instance *instance, const fm_pass *pass)
 {
     const fm_resource *resource;
     for (uint32_t i = 0; i < FM_MAX_TARGETS && pass->targets[i].resource != NULL; i++) {
         draw->targets[i] = current_image(instance, pass->targets[i].resource, &resource);
         draw->target_loads[i] = pass->targets[i].load;
-        memcpy(draw->target_clears[i], resource->clear_colour, sizeof resource->clear_colour);
+        clear_bits(draw->target_clears[i], resource);
         draw->target_count = i + 1;
     }
     if (pass->state.depth_stencil == NULL)
@@ -119,9 +130,11 @@ static void clear_pass(fm_instance *instance, const fm_pass *pass)
         const resource_ref ref = resource_find(instance->method, pass->writes[i]);
         const fm_resource *resource = &instance->method->resources[ref.index];
         const fm_slot *slot = resource_slot(instance, ref);
+        float bits[4];
+        clear_bits(bits, resource);
         if (slot->image != NULL)
-            device->ops->image_clear(device, slot->image, resource->clear_colour,
-                                     resource->clear_depth, resource->clear_stencil);
+            device->ops->image_clear(device, slot->image, bits, resource->clear_depth,
+                                     resource->clear_stencil);
         else if (slot->buffer != NULL)
             device->ops->fill(device, slot->buffer, pass->clear_word);
     }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "check_method.h"
+#include "model/formats.h"
 
 enum { NAME_MAX_BYTES = 64, MAX_IMAGE_LAYERS = 2048, MAX_IMAGE_SAMPLES = 16 };
 static const uint64_t max_constant = UINT64_C(1) << 40;
@@ -138,6 +139,11 @@ static fm_status check_sizing(const fm_checked_method *check, const fm_resource 
     return check_shares(check, r, err);
 }
 
+static bool has_clear_words(const fm_resource *r)
+{
+    return (r->clear_words[0] | r->clear_words[1] | r->clear_words[2] | r->clear_words[3]) != 0;
+}
+
 static fm_status check_buffer(const fm_checked_method *check, const fm_resource *r, fm_error *err)
 {
     fm_status status = check_range(r->element, FM_ELEMENT_COUNT, "element", err);
@@ -146,10 +152,35 @@ static fm_status check_buffer(const fm_checked_method *check, const fm_resource 
     if (r->format != FM_FORMAT_NONE || r->samples != 0 || r->samples_per_k != 0 || r->layers != 0 ||
         r->layers_per_k != 0 || r->samples_option != NULL)
         return fm_fail(err, FM_INVALID, "a buffer has no format, samples or layers");
+    if (has_clear_words(r))
+        return fm_fail(err, FM_INVALID,
+                       "clear_words: for images; clear_word of a pass fills buffers");
     if (r->element == FM_ELEMENT_UINT64 && !(check->method->features & FM_FEATURE_INT64_ATOMICS))
         return fm_fail(err, FM_INVALID, "element: 64-bit needs FM_FEATURE_INT64_ATOMICS");
     status = check_extent(check, &r->extent, err);
     return status == FM_OK ? check_sizing(check, r, err) : status;
+}
+
+static bool has_clear_colour(const fm_resource *r)
+{
+    for (int i = 0; i < 4; i++)
+        if (r->clear_colour[i] != 0.0f) /* a NaN is not */
+            return true;
+    return false;
+}
+
+static fm_status check_clear(const fm_resource *r, fm_error *err)
+{
+    if (!(r->clear_depth >= 0.0f && r->clear_depth <= 1.0f))
+        return fm_fail(err, FM_INVALID, "clear_depth: from 0 to 1");
+    if (r->clear_stencil > UINT8_MAX)
+        return fm_fail(err, FM_INVALID, "clear_stencil: 255 at most");
+    if (has_clear_words(r) && !format_is_integer(r->format))
+        return fm_fail(err, FM_INVALID,
+                       "clear_words: for integer formats; the others have clear_colour");
+    if (has_clear_words(r) && has_clear_colour(r))
+        return fm_fail(err, FM_INVALID, "clear_colour: clear_words is set too");
+    return FM_OK;
 }
 
 static fm_status check_image(const fm_checked_method *check, const fm_resource *r, fm_error *err)
@@ -173,13 +204,10 @@ static fm_status check_image(const fm_checked_method *check, const fm_resource *
                        MAX_IMAGE_SAMPLES);
     if (r->layers > MAX_IMAGE_LAYERS || r->layers_per_k > MAX_IMAGE_LAYERS)
         return fm_fail(err, FM_INVALID, "layers: %d at most", MAX_IMAGE_LAYERS);
-    if (!(r->clear_depth >= 0.0f && r->clear_depth <= 1.0f))
-        return fm_fail(err, FM_INVALID, "clear_depth: from 0 to 1");
-    if (r->clear_stencil > UINT8_MAX)
-        return fm_fail(err, FM_INVALID, "clear_stencil: 255 at most");
-    if (r->samples_option != NULL)
-        return check_counting_option(check, r->samples_option, "samples_option", err);
-    return FM_OK;
+    if (r->samples_option != NULL &&
+        check_counting_option(check, r->samples_option, "samples_option", err) != FM_OK)
+        return FM_INVALID;
+    return check_clear(r, err);
 }
 
 static fm_status check_resource_name(const fm_checked_method *check, const char *name,

@@ -256,6 +256,11 @@ static void plugin_check_rejects_bad_images(void **state)
     REFUSES(m.resources[COLOUR].extent.per_pixel = 1, "viewport's size");
     REFUSES(m.resources[DEPTH].clear_depth = 1.5f, "clear_depth");
     REFUSES(m.resources[DEPTH].clear_stencil = 256, "clear_stencil");
+    REFUSES(m.resources[COLOUR].clear_words[3] = 1, "clear_words: for integer formats");
+    REFUSES(m.resources[POOL].clear_words[0] = 1, "clear_words: for images");
+    REFUSES((m.resources[COLOUR].format = FM_FORMAT_R32UI, m.resources[COLOUR].clear_words[0] = 1,
+             m.resources[COLOUR].clear_colour[0] = 1.0f),
+            "clear_colour: clear_words is set too");
 }
 
 static void plugin_check_rejects_bad_totals(void **state)

@@ -238,7 +238,8 @@ typedef struct fm_resource {
     uint32_t samples_per_k; /* images; added: samples_per_k * k */
     uint32_t layers;        /* images; 0 is 1 */
     uint32_t layers_per_k;  /* images; added: layers_per_k * k */
-    float clear_colour[4];  /* images; as bits for integer formats when the target loads by clear */
+    float clear_colour[4];  /* images; of integer formats its bits, unless clear_words is set */
+    uint32_t clear_words[4]; /* images of integer formats */
     float clear_depth;      /* images */
     uint32_t clear_stencil; /* images */
 
