@@ -14,6 +14,13 @@ static const struct format_info {
     [FM_FORMAT_RGBA8] = { .bytes = 4 },
     [FM_FORMAT_D32F] = { .bytes = 4, .has_depth = true },
     [FM_FORMAT_D32F_S8] = { .bytes = 5, .has_depth = true },
+    [FM_FORMAT_R8] = { .bytes = 1 },
+    [FM_FORMAT_R16] = { .bytes = 2 },
+    [FM_FORMAT_RG16] = { .bytes = 4 },
+    [FM_FORMAT_RGBA16] = { .bytes = 8 },
+    [FM_FORMAT_R16F] = { .bytes = 2 },
+    [FM_FORMAT_RG16F] = { .bytes = 4 },
+    [FM_FORMAT_RGBA16F] = { .bytes = 8 },
 };
 _Static_assert(sizeof formats / sizeof formats[0] == FM_FORMAT_COUNT, "one row a format");
 

@@ -29,6 +29,13 @@ static const struct format_words {
     [FM_FORMAT_RGBA8] = { "vec4", "vec4", "", "rgba8" },
     [FM_FORMAT_D32F] = { "float", "vec4", "", "" },
     [FM_FORMAT_D32F_S8] = { "float", "vec4", "", "" },
+    [FM_FORMAT_R8] = { "float", "vec4", "", "r8" },
+    [FM_FORMAT_R16] = { "float", "vec4", "", "r16" },
+    [FM_FORMAT_RG16] = { "vec2", "vec4", "", "rg16" },
+    [FM_FORMAT_RGBA16] = { "vec4", "vec4", "", "rgba16" },
+    [FM_FORMAT_R16F] = { "float", "vec4", "", "r16f" },
+    [FM_FORMAT_RG16F] = { "vec2", "vec4", "", "rg16f" },
+    [FM_FORMAT_RGBA16F] = { "vec4", "vec4", "", "rgba16f" },
 };
 _Static_assert(sizeof format_words / sizeof format_words[0] == FM_FORMAT_COUNT, "one each");
 

@@ -40,10 +40,12 @@ static const struct float_format {
     const char *step; /* from one value of the format to the next, near 0.8 */
     uint32_t channels;
 } float_formats[] = {
-    { FM_FORMAT_R32F, "1e-6", 1 },
-    { FM_FORMAT_RG32F, "1e-6", 3 },
-    { FM_FORMAT_RGBA32F, "1e-6", 15 },
-    { FM_FORMAT_RGBA8, "0.004", 15 },
+    { FM_FORMAT_R32F, "1e-6", 1 },       { FM_FORMAT_RG32F, "1e-6", 3 },
+    { FM_FORMAT_RGBA32F, "1e-6", 15 },   { FM_FORMAT_RGBA8, "0.004", 15 },
+    { FM_FORMAT_R8, "0.004", 1 },        { FM_FORMAT_R16, "1.6e-5", 1 },
+    { FM_FORMAT_RG16, "1.6e-5", 3 },     { FM_FORMAT_RGBA16, "1.6e-5", 15 },
+    { FM_FORMAT_R16F, "0.0005", 1 },     { FM_FORMAT_RG16F, "0.0005", 3 },
+    { FM_FORMAT_RGBA16F, "0.0005", 15 },
 };
 
 static uint32_t channels_kept(fm_device *device, const fm_method_desc *method, const char *write,

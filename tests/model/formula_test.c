@@ -112,6 +112,18 @@ static void images_have_layers_and_samples_for_each_k(void **state)
     assert_int_equal(formula_image_bytes(&image, &workload), 8 * 6 * (1 + 2 * 4) * 4);
 }
 
+/* 16-bit formats take 2 bytes a channel; R8 takes one. */
+static void small_formats_take_few_bytes(void **state)
+{
+    (void)state;
+    static const fm_resource half = { .kind = FM_RESOURCE_IMAGE, .format = FM_FORMAT_RGBA16F };
+    static const fm_resource byte = { .kind = FM_RESOURCE_IMAGE, .format = FM_FORMAT_R8 };
+    const uint64_t totals[FM_MAX_TOTALS] = { 0 };
+    const fm_workload workload = workload_of(10, totals);
+    assert_int_equal(formula_image_bytes(&half, &workload), 8 * 6);
+    assert_int_equal(formula_image_bytes(&byte, &workload), 6);
+}
+
 static void loops_may_count_by_k_and_by_n(void **state)
 {
     (void)state;
@@ -131,6 +143,7 @@ int main(void)
         cmocka_unit_test(a_size_beyond_64_bits_stays_the_largest_number),
         cmocka_unit_test(ping_pong_buffers_count_twice),
         cmocka_unit_test(images_have_layers_and_samples_for_each_k),
+        cmocka_unit_test(small_formats_take_few_bytes),
         cmocka_unit_test(loops_may_count_by_k_and_by_n),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

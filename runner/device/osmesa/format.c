@@ -13,6 +13,13 @@ static const osmesa_format formats[] = {
     [FM_FORMAT_D32F_S8] = { .internal = GL_DEPTH32F_STENCIL8,
                             .has_depth = true,
                             .has_stencil = true },
+    [FM_FORMAT_R8] = { .internal = GL_R8 },
+    [FM_FORMAT_R16] = { .internal = GL_R16 },
+    [FM_FORMAT_RG16] = { .internal = GL_RG16 },
+    [FM_FORMAT_RGBA16] = { .internal = GL_RGBA16 },
+    [FM_FORMAT_R16F] = { .internal = GL_R16F },
+    [FM_FORMAT_RG16F] = { .internal = GL_RG16F },
+    [FM_FORMAT_RGBA16F] = { .internal = GL_RGBA16F },
 };
 _Static_assert(sizeof formats / sizeof formats[0] == FM_FORMAT_COUNT, "one a format");
 

@@ -17,6 +17,13 @@ static const vulkan_format formats[] = {
     [FM_FORMAT_D32F_S8] = { .format = VK_FORMAT_D32_SFLOAT_S8_UINT,
                             .has_depth = true,
                             .has_stencil = true },
+    [FM_FORMAT_R8] = { .format = VK_FORMAT_R8_UNORM },
+    [FM_FORMAT_R16] = { .format = VK_FORMAT_R16_UNORM },
+    [FM_FORMAT_RG16] = { .format = VK_FORMAT_R16G16_UNORM },
+    [FM_FORMAT_RGBA16] = { .format = VK_FORMAT_R16G16B16A16_UNORM },
+    [FM_FORMAT_R16F] = { .format = VK_FORMAT_R16_SFLOAT },
+    [FM_FORMAT_RG16F] = { .format = VK_FORMAT_R16G16_SFLOAT },
+    [FM_FORMAT_RGBA16F] = { .format = VK_FORMAT_R16G16B16A16_SFLOAT },
 };
 _Static_assert(sizeof formats / sizeof formats[0] == FM_FORMAT_COUNT, "one a format");
 

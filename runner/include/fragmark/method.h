@@ -208,6 +208,13 @@ typedef enum fm_format {
     FM_FORMAT_RGBA8,
     FM_FORMAT_D32F,
     FM_FORMAT_D32F_S8,
+    FM_FORMAT_R8, /* normalised, as Vulkan's UNORM: 0..255 is read as 0..1 */
+    FM_FORMAT_R16,
+    FM_FORMAT_RG16,
+    FM_FORMAT_RGBA16,
+    FM_FORMAT_R16F,
+    FM_FORMAT_RG16F,
+    FM_FORMAT_RGBA16F,
     FM_FORMAT_COUNT
 } fm_format;
 
