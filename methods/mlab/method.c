@@ -7,7 +7,8 @@ const fm_method_desc fm_method = {
     .title = "MLAB",
     .citation = "Salvi, Vaidyanathan 2014, Multi-Layer Alpha Blending, doi:10.1145/2556700.2556705",
     .version = "1",
-    .traits = FM_TRAIT_BOUNDED | FM_TRAIT_APPROXIMATE | FM_TRAIT_SORTED_INPUT,
+    .traits = FM_TRAIT_BOUNDED | FM_TRAIT_APPROXIMATE | FM_TRAIT_SORTED_INPUT |
+              FM_TRAIT_READS_COLOUR,
     .keeps = FM_KEEPS_ALL_IN_K,
     .family = FM_FAMILY_K_BUFFER,
     .marker = FM_MARKER_CROSS,

@@ -30,7 +30,7 @@ _Static_assert(sizeof marker_name / sizeof marker_name[0] == FM_MARKER_COUNT, "o
 static const char *const trait_name[] = {
     "exact",           "bounded",    "sorted_input", "sorts_in_resolve",
     "loses_depth_one", "loses_ties", "racy",         "approximate",
-    "control",         "floor",      "emits_back",
+    "control",         "floor",      "emits_back",   "reads_colour",
 };
 _Static_assert((1u << sizeof trait_name / sizeof trait_name[0]) == FM_TRAITS_ALL + 1u,
                "one name a trait");

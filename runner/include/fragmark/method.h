@@ -85,10 +85,12 @@ enum {
     FM_TRAIT_RACY = 1u << 6,            /* concurrent fragments of a pixel may damage each other */
     FM_TRAIT_APPROXIMATE = 1u << 7,     /* published as an approximation */
     FM_TRAIT_CONTROL = 1u << 8,         /* not a published method */
-    FM_TRAIT_FLOOR = 1u << 9,       /* the control whose store time is the floor of all others */
-    FM_TRAIT_EMITS_BACK = 1u << 10, /* calls fm_emit with negative ranks */
+    FM_TRAIT_FLOOR = 1u << 9,         /* the control whose store time is the floor of all others */
+    FM_TRAIT_EMITS_BACK = 1u << 10,   /* calls fm_emit with negative ranks */
+    FM_TRAIT_READS_COLOUR = 1u << 11, /* computes with colours (weighs or blends them) before it
+                                         emits; others hand their 32 bits on, whatever they mean */
 };
-#define FM_TRAITS_ALL ((1u << 11) - 1u)
+#define FM_TRAITS_ALL ((1u << 12) - 1u)
 
 /* What a method needs of the device, beside what every device has. */
 enum {
@@ -240,15 +242,15 @@ typedef struct fm_resource {
                            the larger of both sizes; what the one holds is gone once a pass writes
                            the other, and a clear pass fills all of it */
 
-    fm_format format;       /* images */
-    uint32_t samples;       /* images; 0 is 1 */
-    uint32_t samples_per_k; /* images; added: samples_per_k * k */
-    uint32_t layers;        /* images; 0 is 1 */
-    uint32_t layers_per_k;  /* images; added: layers_per_k * k */
-    float clear_colour[4];  /* images; of integer formats its bits, unless clear_words is set */
+    fm_format format;        /* images */
+    uint32_t samples;        /* images; 0 is 1 */
+    uint32_t samples_per_k;  /* images; added: samples_per_k * k */
+    uint32_t layers;         /* images; 0 is 1 */
+    uint32_t layers_per_k;   /* images; added: layers_per_k * k */
+    float clear_colour[4];   /* images; of integer formats its bits, unless clear_words is set */
     uint32_t clear_words[4]; /* images of integer formats */
-    float clear_depth;      /* images */
-    uint32_t clear_stencil; /* images */
+    float clear_depth;       /* images */
+    uint32_t clear_stencil;  /* images */
 
     bool ping_pong; /* two copies, swapped after each iteration of a loop: NAME is written,
                        NAME_previous (a name to use in `reads`) is what the last one wrote */
