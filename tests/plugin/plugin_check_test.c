@@ -1,14 +1,5 @@
 /* Descriptors of plugins: what is refused, and in which words. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-#include <string.h>
-
-#include "fragmark/technique.h"
-#include "plugin/plugin.h"
+#include "check_kit.h"
 
 /* A descriptor that uses most of the interface and is right. */
 static fm_method_desc sound(void)
@@ -81,14 +72,6 @@ static fm_next never(const fm_workload *workload, const char *pass)
     (void)workload;
     (void)pass;
     return FM_NEXT;
-}
-
-static void assert_check_fails(const fm_method_desc *method, const char *message)
-{
-    fm_error err = { 0 };
-    assert_int_equal(plugin_check(method, "x.so", &err), FM_INVALID);
-    if (strncmp(err.message, "x.so: ", 6) != 0 || strstr(err.message, message) == NULL)
-        fail_msg("'%s' is not in: %s", message, err.message);
 }
 
 /* CHANGE works on `m`, a sound descriptor. */
@@ -337,6 +320,12 @@ static void plugin_check_rejects_bad_passes(void **state)
     REFUSES(m.passes[9].name = REST, "passes[9]");
 }
 
+static void plugin_check_takes_every_known_trait(void **state)
+{
+    (void)state;
+    ACCEPTS(m.traits = FM_TRAITS_ALL & ~(uint32_t)FM_TRAIT_EXACT);
+}
+
 static void plugin_check_rejects_bad_attachments(void **state)
 {
     (void)state;
@@ -390,72 +379,6 @@ static void plugin_check_rejects_bad_loops(void **state)
     REFUSES(m.loops[3].first = "clear", "loops[3]");
 }
 
-static fm_method_desc technique_method(const fm_technique *technique)
-{
-    return (fm_method_desc){
-        .abi = FM_ABI,
-        .size_bytes = sizeof(fm_method_desc),
-        .id = "sound-3",
-        .title = "Sound",
-        .citation = "none",
-        .version = "1",
-        .feeds = FM_FEED_FRAMES,
-        .keeps = FM_KEEPS_NEAREST,
-        .options = { { .name = "tie", .values = { "exact", "paper" } } },
-        .technique = technique,
-    };
-}
-
-static fm_prediction see_all(const fm_pair *pair)
-{
-    (void)pair;
-    return FM_VISIBLE;
-}
-
-static bool skip_none(const fm_tile_start *tile)
-{
-    (void)tile;
-    return false;
-}
-
-static void plugin_check_takes_a_sound_technique(void **state)
-{
-    (void)state;
-    const fm_technique technique = { .parts = FM_PART_VISIBILITY | FM_PART_SIGNATURES,
-                                     .choices = { { "tie", "exact", FM_PART_EXACT_TIES } },
-                                     .predict = see_all,
-                                     .skip = skip_none };
-    const fm_method_desc m = technique_method(&technique);
-    fm_error err = { 0 };
-    if (plugin_check(&m, "x.so", &err) != FM_OK)
-        fail_msg("%s", err.message);
-}
-
-/* CHANGE works on `m` and its technique `t`. */
-#define REFUSES_TECHNIQUE(CHANGE, MESSAGE)                                                         \
-    do {                                                                                           \
-        fm_technique t = { 0 };                                                                    \
-        fm_method_desc m = technique_method(&t);                                                   \
-        CHANGE;                                                                                    \
-        assert_check_fails(&m, MESSAGE);                                                           \
-    } while (0)
-
-static void plugin_check_rejects_bad_techniques(void **state)
-{
-    (void)state;
-    REFUSES(m.feeds = FM_FEED_RASTER | FM_FEED_FRAMES, "methods with a technique");
-    REFUSES_TECHNIQUE(m.feeds |= FM_FEED_RASTER, "'frames' alone");
-    REFUSES_TECHNIQUE(m.passes[0].name = "store", "are for methods of passes");
-    REFUSES_TECHNIQUE(m.keeps = FM_KEEPS_ALL, "keeps");
-    REFUSES_TECHNIQUE(t.parts = 1u << 31, "parts: unknown bits 0x80000000");
-    REFUSES_TECHNIQUE(t.choices[0].option = "ties", "choices[0]: option 'ties'");
-    REFUSES_TECHNIQUE(t.choices[1] = ((fm_part_choice){ "tie", "maybe", 0 }), "no value 'maybe'");
-    REFUSES_TECHNIQUE(t.choices[1] = ((fm_part_choice){ "tie", "paper", 1u << 30 }), "unknown");
-    REFUSES_TECHNIQUE(t.predict = see_all, "predict: needs FM_PART_VISIBILITY");
-    REFUSES_TECHNIQUE(t.skip = skip_none, "skip: needs FM_PART_SIGNATURES");
-    REFUSES_TECHNIQUE(t.parts = FM_PART_TAINT, "taint needs");
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -468,11 +391,10 @@ int main(void)
         cmocka_unit_test(plugin_check_rejects_bad_images),
         cmocka_unit_test(plugin_check_rejects_bad_totals),
         cmocka_unit_test(plugin_check_rejects_bad_passes),
+        cmocka_unit_test(plugin_check_takes_every_known_trait),
         cmocka_unit_test(plugin_check_rejects_bad_attachments),
         cmocka_unit_test(plugin_check_rejects_bad_loops),
         cmocka_unit_test(plugin_check_asks_the_innermost_loop_of_a_step),
-        cmocka_unit_test(plugin_check_takes_a_sound_technique),
-        cmocka_unit_test(plugin_check_rejects_bad_techniques),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
