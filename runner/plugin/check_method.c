@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "check_later.h"
 #include "check_words.h"
 #include "plugin.h"
 
@@ -81,6 +82,8 @@ static fm_status check_head(const fm_method_desc *m, fm_error *err)
         status = check_range(m->marker, FM_MARKER_COUNT, "marker", err);
     if (status == FM_OK && (m->traits & FM_TRAIT_EXACT) && (m->traits & FM_TRAIT_APPROXIMATE))
         status = fm_fail(err, FM_INVALID, "traits: exact and approximate exclude each other");
+    if (status == FM_OK)
+        status = check_later_method(m, err);
     return status;
 }
 

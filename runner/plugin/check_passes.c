@@ -3,6 +3,7 @@
 #include <inttypes.h>
 #include <string.h>
 
+#include "check_later.h"
 #include "check_method.h"
 #include "culling_apply.h"
 #include "model/formats.h"
@@ -263,6 +264,8 @@ static fm_status check_pass(const fm_checked_method *check, const fm_pass *pass,
         status = check_flags(check, pass, err);
     if (status == FM_OK)
         status = check_counts(check, pass, err);
+    if (status == FM_OK)
+        status = check_later_pass(pass, err);
     return status;
 }
 

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "check_later.h"
 #include "check_method.h"
 #include "model/formats.h"
 
@@ -237,6 +238,8 @@ static fm_status check_resource(const fm_checked_method *check, const fm_resourc
         status = check_range(r->kind, FM_RESOURCE_KIND_COUNT, "kind", err);
     if (status == FM_OK)
         status = check_factors(used, sizeof used / sizeof used[0], "used", err);
+    if (status == FM_OK)
+        status = check_later_resource(r, err);
     if (status != FM_OK)
         return status;
     return r->kind == FM_RESOURCE_BUFFER ? check_buffer(check, r, err) : check_image(check, r, err);

@@ -320,6 +320,24 @@ static void plugin_check_rejects_bad_passes(void **state)
     REFUSES(m.passes[9].name = REST, "passes[9]");
 }
 
+/* Fields of ABI 5 that nothing uses so far: whoever asks for one is told so. */
+static void plugin_check_rejects_what_is_not_there_yet(void **state)
+{
+    (void)state;
+    REFUSES(m.needs_interlock = true, "x.so: needs_interlock: not yet");
+    REFUSES(m.resources[POOL].when_option = "layout",
+            "x.so: resource 'pool': when_option: not yet");
+    REFUSES(m.resources[COLOUR].when_value = "pixel",
+            "x.so: resource 'colour': when_value: not yet");
+    REFUSES(m.passes[STORE].ordered_interlock = true,
+            "x.so: pass 'store': ordered_interlock: not yet");
+    REFUSES(m.passes[STORE].targets_after_lock = true,
+            "x.so: pass 'store': targets_after_lock: not yet");
+    REFUSES(m.passes[COUNT].writes_sample_mask = true,
+            "x.so: pass 'count': writes_sample_mask: not yet");
+    REFUSES(m.passes[RESOLVE].shared_sort = true, "x.so: pass 'resolve': shared_sort: not yet");
+}
+
 static void plugin_check_takes_every_known_trait(void **state)
 {
     (void)state;
@@ -391,6 +409,7 @@ int main(void)
         cmocka_unit_test(plugin_check_rejects_bad_images),
         cmocka_unit_test(plugin_check_rejects_bad_totals),
         cmocka_unit_test(plugin_check_rejects_bad_passes),
+        cmocka_unit_test(plugin_check_rejects_what_is_not_there_yet),
         cmocka_unit_test(plugin_check_takes_every_known_trait),
         cmocka_unit_test(plugin_check_rejects_bad_attachments),
         cmocka_unit_test(plugin_check_rejects_bad_loops),

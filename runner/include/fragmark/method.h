@@ -256,6 +256,9 @@ typedef struct fm_resource {
                        NAME_previous (a name to use in `reads`) is what the last one wrote */
     fm_used used;
     const char *samples_option; /* images; added: the number that this option is */
+
+    /* Not yet: the resource is there only where the option has this value. */
+    const char *when_option, *when_value;
 } fm_resource;
 
 /* A number that the runner reads back. Exactly one source is set. */
@@ -384,6 +387,15 @@ typedef struct fm_pass {
                        workgroup of its own, and may use shared memory and barriers */
     uint32_t lanes_narrow; /* instead of lanes, where subgroups have fewer than 32; 0: lanes */
     bool narrow_only;      /* left out where subgroups have 32 lanes or more (!FM_NARROW) */
+
+    /* Not yet, each refused where it is set: */
+    bool ordered_interlock;  /* exclusive: an interlock lets fragments of a pixel in as they were
+                                drawn, so that store() sees them in that order */
+    bool targets_after_lock; /* exclusive, with targets: fm_target_NAME is written, and blended,
+                                behind the lock, by a function of its own */
+    bool writes_sample_mask; /* FM_PASS_SCENE: store() says which samples the fragment covers */
+    bool shared_sort;        /* FM_PASS_PIXELS: the runner's key `sort` says how the fragments of a
+                                pixel are sorted */
 } fm_pass;
 
 /* Passes first..last (by name) run again and again: `count` times (constant + per k + per n + the
@@ -452,6 +464,9 @@ typedef struct fm_method_desc {
     const struct fm_technique *technique;
 
     uint32_t features_optional; /* FM_FEATURE_* that shaders use where the device has them */
+
+    bool needs_interlock; /* not yet, refused where it is set: right under an interlock only, so
+                             that lock=spin is not supported */
 } fm_method_desc;
 
 /* The one symbol of a plugin. Compile plugins with hidden visibility. */
