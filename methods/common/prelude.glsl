@@ -24,23 +24,23 @@ void fm_fence()
 // Fragments that found no room. In a helper invocation atomics do nothing, so none is counted there.
 void fm_lost(uvec2 pixel)
 {
-    atomicAdd(fm_counters[0], 1u);
+    atomicAdd(fm_counters[FM_COUNTER_LOST], 1u);
 }
 
 #ifdef FM_CAPTURE
 // Events are counted in the checked build only: the timed one is undisturbed.
 void fm_culled()
 {
-    atomicAdd(fm_counters[1], 1u);
+    atomicAdd(fm_counters[FM_COUNTER_CULLED], 1u);
 }
 void fm_locked()
 {
-    atomicAdd(fm_counters[2], 1u);
+    atomicAdd(fm_counters[FM_COUNTER_LOCKED], 1u);
 }
 void fm_arrived()
 {
     if (FM_IS_STORE != 0 && fm_iteration == 0u) // in loops the first time only
-        atomicAdd(fm_counters[3], 1u);
+        atomicAdd(fm_counters[FM_COUNTER_ARRIVED], 1u);
 }
 #else
 void fm_culled()

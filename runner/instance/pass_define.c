@@ -48,6 +48,15 @@ static void define_culling(fm_text *text, const fm_pass *pass, const fm_settings
         shader_define(text, "FM_CULL_WORDS", settings->cull_words);
 }
 
+/* Where prelude.glsl counts what. */
+static void define_counters(fm_text *text)
+{
+    shader_define(text, "FM_COUNTER_LOST", STAGE_COUNTER_LOST);
+    shader_define(text, "FM_COUNTER_CULLED", STAGE_COUNTER_CULLED);
+    shader_define(text, "FM_COUNTER_LOCKED", STAGE_COUNTER_LOCKED);
+    shader_define(text, "FM_COUNTER_ARRIVED", STAGE_COUNTER_ARRIVED);
+}
+
 static bool release_exchanges(const fm_instance *instance)
 {
     switch (instance->desc.settings->release) {
@@ -75,6 +84,7 @@ void pass_define(fm_text *text, const fm_instance *instance, const fm_pass *pass
     shader_define(text, "FM_TARGETS", pass_has_fixed_function(pass));
     shader_define(text, "FM_EMIT_FIRST", pass_emits_first(instance, pass));
     define_culling(text, pass, instance->desc.settings);
+    define_counters(text);
     shader_define(text, "FM_GROUP_LANES", FM_GROUP_LANES);
     shader_define(text, "FM_LOOP_LIMIT", caps->loop_limit);
     shader_define(text, "FM_SUBGROUP_SIZE", caps->subgroup_size);
