@@ -6,13 +6,8 @@
 
 void put(uint bin, uint bucket, uint pair);
 
-// The list of large triangles. As macros: not every pass has the buffers.
-#define large_count() min(bins[LARGE], LARGE_MAX)
-#if TAKES_NOTES
-#define large_at(i) listed[i]
-#else
-#define large_at(i) notes[i]
-#endif
+// How many large_at() has. A macro: not every pass has the buffer.
+#define large_count() min(bins[HEAD_LARGE], LARGE_MAX)
 
 // Whether no pixel of its box is covered, where that is at most 2 x 2: so it is with a quarter of the triangles
 // that are about as large as a pixel. `edges`: at `corner`.

@@ -4,7 +4,7 @@
 // Whether there was room. The list's dispatch grows with it: x up to 256 groups, then y.
 bool put_off(uint triangle)
 {
-    uint at = atomicAdd(bins[LARGE], 1u); // unique; the list's order does not matter
+    uint at = atomicAdd(bins[HEAD_LARGE], 1u); // unique; the list's order does not matter
     if (at >= LARGE_MAX)
         return false;
     large_at(at) = triangle;
@@ -34,7 +34,7 @@ void count(uint triangle)
     ivec2 each = is_small(size) ? size : LARGE_STRETCH;
     if (has_pixels && (is_small(size) || !put_off(triangle)))
         note = note_of(t, size, bin_part(t, triangle, size, each, ivec2(0, 1)));
-    notes[triangle] = note;
+    note_at(triangle) = note;
 }
 
 #else

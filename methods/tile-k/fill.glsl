@@ -33,7 +33,7 @@ void fill(uint i)
 {
     uint group = i / uint(FM_GROUP_LANES), at = group - SMALL_GROUPS;
     bool is_listed = group >= SMALL_GROUPS && at < large_count();
-    uint note = i < uint(FM_TRIANGLES) && group < SMALL_GROUPS ? notes[i] : 0u;
+    uint note = i < uint(FM_TRIANGLES) && group < SMALL_GROUPS ? note_at(i) : 0u;
     if (is_listed || note == NOTE_AGAIN)
         bin_again(is_listed ? large_at(at) : i, is_listed ? ivec2(fm_lane, FM_GROUP_LANES) : ivec2(0, 1));
     else if (note != 0u)

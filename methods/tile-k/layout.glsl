@@ -2,15 +2,14 @@
 // z. bins[] holds 33 words a block, from words_of(bin) on: while counting, each bucket's pairs; then where each
 // bucket's next pair goes, and at the end where it ends; the last word is where the block's pairs begin.
 #include "tile-k/lanes.glsl"
+#include "tile-k/sizes.glsl"
 
-const uint BUCKETS = 32u;
-const uint BIN_WORDS = BUCKETS + 1u;
 const uint TILES_X = (uint(FM_WIDTH) + 7u) / 8u;
 const uint TILES = TILES_X * ((uint(FM_HEIGHT) + 7u) / 8u);
 
 // A wide subgroup covers 8 x 4 pixels: small triangles, as they are where there are many more of them than pixels, lie
 // in one half of a tile, and the other half need not look at them. Elsewhere more pairs cost more than they save (4:
-// measured, README). method.c allocates for two.
+// measured, README).
 #ifndef BLOCKS // is an option of the method
 #define BLOCKS 0
 #endif
@@ -30,9 +29,7 @@ uint bin_of(ivec2 block)
     return (row / TILE_BLOCKS * TILES_X + uint(block.x)) * TILE_BLOCKS + row % TILE_BLOCKS;
 }
 
-// Where to set a triangle up costs more than to remember, `count` leaves `fill` a note of each in notes[], and
-// the list of large ones is in listed[], as long as that is: who finds no room there is not listed, and slower.
-// Elsewhere notes[] is the list.
+// Where setting a triangle up costs more than remembering it, `count` leaves `fill` a note of each triangle.
 #ifndef NOTES // is an option of the method
 #define NOTES 0
 #define NOTES_AUTO 0
@@ -45,21 +42,29 @@ uint bin_of(ivec2 block)
 #define TAKES_NOTES 0
 #endif
 
-// Before them in bins[], so that one command clears all: x y z of the large triangles' dispatch, and
-const uint LARGE = 3u; // how many there are
-const uint ALLOCATED = 4u; // pairs
-const uint HEAD_WORDS = 5u;
+// triangle_words[] has a word for each triangle, tile_words[] one for each tile. Only these names know what
+// they hold:
+//                 triangle_words[]              tile_words[]
+//   TAKES_NOTES   the note of each triangle     the list of large triangles
+//   else          the list of large triangles   the list of tiles that have pairs (LISTS_TILES)
+// As macros: not every pass has both buffers.
+#if TAKES_NOTES
+#define note_at(triangle) triangle_words[triangle]
+#define large_at(i) tile_words[i]
+#else
+#define large_at(i) triangle_words[i]
+#endif
+#define listed_tile_at(i) tile_words[i]
 
 uint words_of(uint bin)
 {
     return HEAD_WORDS + bin * BIN_WORDS;
 }
 
-// store_groups[]: x y z of the dispatch over tiles, and how many tiles listed[] has. Narrow subgroups are
-// in practice those of software, which runs all of a shader for a tile that has nothing: there listed[] has
-// the others, unless notes need it.
+// Whether `store` runs for listed tiles instead of all. Narrow subgroups are in practice those of software,
+// which runs all of a shader for a tile that has nothing: there the tiles that have pairs are listed, unless
+// notes need the room.
 const bool LISTS_TILES = FM_NARROW != 0 && TAKES_NOTES == 0;
-const uint LISTED = 3u;
 const uint GROUPS_X = 32768u; // of a dispatch, then y
 
 // Groups that take the small triangles in `fill`; large ones have groups behind them.
@@ -75,7 +80,7 @@ const int REACH_PX = 64; // so far fm_edges_at() can be stepped (common/rasteris
 const int SMALL_BLOCKS = 16 * int(TILE_BLOCKS);
 const ivec2 LARGE_STRETCH = ivec2(4);
 
-// How many the list may have: notes[] or, where that has notes, listed[].
+// How many the list may have. A large triangle that finds no room is not listed, which is right and slower.
 #if TAKES_NOTES
 const uint LARGE_MAX = TILES;
 #else

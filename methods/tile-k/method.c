@@ -1,5 +1,7 @@
 #include "fragmark/method.h"
 
+#include "sizes.glsl"
+
 /* tile-k, fragmark's own: published nowhere but in README.md beside this file. */
 const fm_method_desc fm_method = {
     .abi = FM_ABI,
@@ -31,17 +33,18 @@ const fm_method_desc fm_method = {
                   "clipped; auto: with 32 lanes" },
     },
     .resources = {
-        { .name = "fill_groups", .extent = { .constant = 3 } }, /* x y z of a dispatch */
-        { .name = "store_groups", .extent = { .constant = 4 } }, /* ... and a count */
-        { .name = "listed", .extent = { .per_tile = 1 } },
-        { .name = "notes", .extent = { .per_triangle = 1 } },
-        { .name = "bins", .extent = { .constant = 5, .per_tile = 66 } }, /* tile-k/layout.glsl */
+        { .name = "fill_groups", .extent = { .constant = FILL_GROUPS_WORDS } },
+        { .name = "store_groups", .extent = { .constant = STORE_GROUPS_WORDS } },
+        { .name = "tile_words", .extent = { .per_tile = 1 } }, /* tile-k/layout.glsl: of what */
+        { .name = "triangle_words", .extent = { .per_triangle = 1 } },
+        { .name = "bins",
+          .extent = { .constant = HEAD_WORDS, .per_tile = TILE_BLOCKS_MAX * BIN_WORDS } },
         { .name = "pairs", .sizing = FM_SIZE_AFTER_TOTAL,
           .extent = { .per_total = 1, .total = "pairs" } },
     },
     .totals = { { .name = "pairs",
                   .resource = "bins",
-                  .index = 4,
+                  .index = HEAD_PAIRS,
                   .pass = "reference",
                   .late = true } },
     .passes = {
@@ -49,20 +52,20 @@ const fm_method_desc fm_method = {
         { .name = "clear-list", .kind = FM_PASS_CLEAR, .writes = { "store_groups" },
           .narrow_only = true },
         { .name = "count", .kind = FM_PASS_TRIANGLES, .shader = "count.glsl",
-          .writes = { "bins", "notes", "listed" } },
+          .writes = { "bins", "triangle_words", "tile_words" } },
         { .name = "count-large", .kind = FM_PASS_INDIRECT, .indirect = "bins",
-          .shader = "count_large.glsl", .reads = { "notes", "listed" },
+          .shader = "count_large.glsl", .reads = { "triangle_words", "tile_words" },
           .writes = { "bins" } },
         { .name = "reference", .kind = FM_PASS_TILES, .lanes = FM_GROUP_LANES, .lanes_narrow = 1,
           .shader = "reference.glsl",
-          .writes = { "bins", "fill_groups", "store_groups", "listed" } },
+          .writes = { "bins", "fill_groups", "store_groups", "tile_words" } },
         { .name = "fill", .kind = FM_PASS_INDIRECT, .indirect = "fill_groups",
-          .shader = "fill.glsl", .reads = { "fill_groups", "notes", "listed" },
+          .shader = "fill.glsl", .reads = { "fill_groups", "triangle_words", "tile_words" },
           .writes = { "bins", "pairs" } },
         { .name = "background", .kind = FM_PASS_PIXELS, .shader = "background.glsl",
           .emits = true, .narrow_only = true },
         { .name = "store", .kind = FM_PASS_INDIRECT, .indirect = "store_groups",
-          .shader = "store.glsl", .reads = { "store_groups", "listed", "bins", "pairs" },
+          .shader = "store.glsl", .reads = { "store_groups", "tile_words", "bins", "pairs" },
           .emits = true },
     },
 };

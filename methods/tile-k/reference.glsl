@@ -10,7 +10,7 @@ uvec3 groups_of(uint count)
 
 void make_dispatches(uint tiles)
 {
-    uvec3 of_fill = groups_of(SMALL_GROUPS + min(bins[LARGE], LARGE_MAX)), of_store = groups_of(tiles);
+    uvec3 of_fill = groups_of(SMALL_GROUPS + min(bins[HEAD_LARGE], LARGE_MAX)), of_store = groups_of(tiles);
     for (int i = 0; i < 3; ++i) {
         fill_groups[i] = of_fill[i];
         if (!LISTS_TILES)
@@ -21,9 +21,9 @@ void make_dispatches(uint tiles)
 // The dispatch grows with the list, whose order does not matter.
 void list_tile(uint tile)
 {
-    uint at = atomicAdd(store_groups[LISTED], 1u);
+    uint at = atomicAdd(store_groups[STORE_GROUPS_LISTED], 1u);
     uvec3 dispatch = groups_of(at + 1u);
-    listed[at] = tile;
+    listed_tile_at(at) = tile;
     for (int i = 0; i < 3; ++i)
         atomicMax(store_groups[i], dispatch[i]);
 }
@@ -55,7 +55,7 @@ void reference(uint tile)
         sums[fm_lane] += before;
     }
     if (fm_lane == LANES_USED - 1u) // each gets its own
-        first_of_tile = atomicAdd(bins[ALLOCATED], sums[fm_lane]);
+        first_of_tile = atomicAdd(bins[HEAD_PAIRS], sums[fm_lane]);
     barrier();
     uint next = first_of_tile + sums[fm_lane] - count;
     if (is_used)
@@ -74,7 +74,7 @@ uint take_stretch(uint bin)
         counts[i] = bins[at + i];
         total += counts[i];
     }
-    uint next = total > 0u ? atomicAdd(bins[ALLOCATED], total) : 0u; // each gets its own
+    uint next = total > 0u ? atomicAdd(bins[HEAD_PAIRS], total) : 0u; // each gets its own
     bins[at + BUCKETS] = next;
     for (uint i = 0u; i < BUCKETS; ++i) {
         bins[at + i] = next;

@@ -145,8 +145,8 @@ void subgroup_fence()
 bool tile_of(uint i, out uint tile)
 {
     uint group = i / uint(FM_GROUP_LANES);
-    bool is_there = group < (LISTS_TILES ? store_groups[LISTED] : TILES);
-    tile = !is_there ? 0u : LISTS_TILES ? listed[group] : group; // the dispatch may be larger
+    bool is_there = group < (LISTS_TILES ? store_groups[STORE_GROUPS_LISTED] : TILES);
+    tile = !is_there ? 0u : LISTS_TILES ? listed_tile_at(group) : group; // the dispatch may be larger
     return is_there;
 }
 
