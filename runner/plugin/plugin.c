@@ -8,6 +8,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "shader_files.h"
+
 bool plugin_has_k(const fm_method_desc *method)
 {
     return method->keeps == FM_KEEPS_K_NEAREST || method->keeps == FM_KEEPS_ALL_IN_K;
@@ -63,24 +65,25 @@ static fm_status check_file_name(const fm_plugin *plugin, fm_error *err)
     return FM_OK;
 }
 
-/* "common/x.glsl" is the runner's and lies where plugin_list found it. */
-static fm_status check_shader_files(const fm_plugin *plugin, fm_error *err)
+/* "common/x.glsl" is the runner's, and as right as the runner. */
+static fm_status check_shader_files(const fm_plugin *plugin, const char *common, fm_error *err)
 {
-    char path[2 * FM_PATH_MAX_BYTES];
+    const fm_shader_folders folders = { plugin->folder, common };
+    char path[FM_PATH_MAX_BYTES];
     for (size_t i = 0; i < FM_MAX_PASSES && plugin->method->passes[i].name != NULL; i++) {
         const fm_pass *pass = &plugin->method->passes[i];
         if (pass->shader == NULL || strncmp(pass->shader, "common/", 7) == 0)
             continue;
-        const int length = snprintf(path, sizeof path, "%s/%s%s", plugin->folder,
-                                    strchr(pass->shader, '/') == NULL ? "" : "../", pass->shader);
-        if (length < 0 || (size_t)length >= sizeof path || access(path, R_OK) != 0)
+        if (shader_file_find(path, &folders, pass->shader, err) != FM_OK)
+            return fm_error_prefix(err, "%s: pass '%s': shader", file_of(plugin->path), pass->name);
+        if (access(path, R_OK) != 0)
             return fm_fail(err, FM_INVALID, "%s: pass '%s': shader '%s': cannot read %s",
                            file_of(plugin->path), pass->name, pass->shader, path);
     }
     return FM_OK;
 }
 
-fm_status plugin_open(fm_plugin **plugin, const char *path, fm_error *err)
+fm_status plugin_open(fm_plugin **plugin, const char *path, const char *common, fm_error *err)
 {
     *plugin = NULL;
     fm_plugin *made = calloc(1, sizeof *made);
@@ -92,7 +95,7 @@ fm_status plugin_open(fm_plugin **plugin, const char *path, fm_error *err)
     if (status == FM_OK)
         status = check_file_name(made, err);
     if (status == FM_OK)
-        status = check_shader_files(made, err);
+        status = check_shader_files(made, common, err);
     if (status != FM_OK) {
         plugin_close(made);
         return status;

@@ -32,11 +32,12 @@ typedef struct fm_plugin_list {
                                               with common/prelude.glsl; "": none has it */
 } fm_plugin_list;
 
-/* Opens one shared object and checks its descriptor. Messages name plugin, pass and field:
- * "kb.so: pass 'store': reads 'fragmets': no such resource; nearest is 'fragments'".
- * FM_IO: no such file; FM_INVALID: refused. Strings and hooks of the descriptor are trusted to be
- * what they say: a plugin is code. */
-fm_status plugin_open(fm_plugin **plugin, const char *path, fm_error *err);
+/* Opens one shared object and checks its descriptor. common: the folder of the runner's GLSL,
+ * beside which a pass may find the shaders of other methods; NULL: they lie beside the plugin.
+ * Messages name plugin, pass and field: "kb.so: pass 'store': reads 'fragmets': no such resource;
+ * nearest is 'fragments'". FM_IO: no such file; FM_INVALID: refused. Strings and hooks of the
+ * descriptor are trusted to be what they say: a plugin is code. */
+fm_status plugin_open(fm_plugin **plugin, const char *path, const char *common, fm_error *err);
 void plugin_close(fm_plugin *plugin);
 
 /* Checks a descriptor, as plugin_open does. name is the plugin's in messages. */

@@ -31,7 +31,7 @@ static fm_status add_entry(fm_plugin_list *list, const char *id, const char *pat
     *entry = (fm_plugin_entry){ 0 };
     snprintf(entry->id, sizeof entry->id, "%s", id);
     /* A refusal stays in the entry. */
-    (void)plugin_open(&entry->plugin, path, &entry->error);
+    (void)plugin_open(&entry->plugin, path, list->common_folder, &entry->error);
     return FM_OK;
 }
 
@@ -48,12 +48,18 @@ static fm_status scan_entry(fm_plugin_list *list, const char *folder, const char
     return add_entry(list, id, path, err);
 }
 
-static void note_common(fm_plugin_list *list, const char *folder)
+/* What is done with each folder. */
+typedef fm_status folder_visit(fm_plugin_list *list, const char *folder, fm_error *err);
+
+/* The first folder that has the runner's GLSL. */
+static fm_status note_common(fm_plugin_list *list, const char *folder, fm_error *err)
 {
     path_text common, prelude;
+    (void)err;
     if (list->common_folder[0] == '\0' && join(common, folder, "common") &&
         join(prelude, common, "prelude.glsl") && access(prelude, R_OK) == 0)
         memcpy(list->common_folder, common, strlen(common) + 1);
+    return FM_OK;
 }
 
 static fm_status scan_folder(fm_plugin_list *list, const char *folder, fm_error *err)
@@ -63,7 +69,6 @@ static fm_status scan_folder(fm_plugin_list *list, const char *folder, fm_error 
     const int count = scandir(folder, &names, NULL, alphasort);
     if (count < 0)
         return fm_fail(err, FM_IO, "plugin folder %s: %s", folder, strerror(errno));
-    note_common(list, folder);
     for (int i = 0; i < count; i++) {
         if (status == FM_OK)
             status = scan_entry(list, folder, names[i]->d_name, err);
@@ -74,7 +79,8 @@ static fm_status scan_folder(fm_plugin_list *list, const char *folder, fm_error 
 }
 
 /* A list of folders with colons between them; empty parts are skipped. */
-static fm_status scan_path(fm_plugin_list *list, const char *folders, fm_error *err)
+static fm_status visit_path(fm_plugin_list *list, const char *folders, folder_visit *visit,
+                            fm_error *err)
 {
     fm_status status = FM_OK;
     char *copy = strdup(folders), *rest = copy;
@@ -82,13 +88,13 @@ static fm_status scan_path(fm_plugin_list *list, const char *folders, fm_error *
         return fm_fail(err, FM_NO_MEMORY, "FRAGMARK_PLUGIN_PATH");
     for (char *part = strtok_r(copy, ":", &rest); part != NULL && status == FM_OK;
          part = strtok_r(NULL, ":", &rest))
-        status = scan_folder(list, part, err);
+        status = visit(list, part, err);
     free(copy);
     return status == FM_OK ? FM_OK : fm_error_prefix(err, "FRAGMARK_PLUGIN_PATH");
 }
 
 /* Folders that may be missing. */
-static fm_status scan_beside_executable(fm_plugin_list *list, fm_error *err)
+static fm_status visit_beside_executable(fm_plugin_list *list, folder_visit *visit, fm_error *err)
 {
     char executable[FM_PATH_MAX_BYTES];
     path_text folder;
@@ -100,7 +106,7 @@ static fm_status scan_beside_executable(fm_plugin_list *list, fm_error *err)
     for (size_t i = 0; i < sizeof beside_executable / sizeof beside_executable[0]; i++) {
         if (!join(folder, executable, beside_executable[i]) || access(folder, R_OK | X_OK) != 0)
             continue;
-        const fm_status status = scan_folder(list, folder, err);
+        const fm_status status = visit(list, folder, err);
         if (status != FM_OK)
             return status;
     }
@@ -112,20 +118,28 @@ static int compare_entries(const void *left, const void *right)
     return strcmp(((const fm_plugin_entry *)left)->id, ((const fm_plugin_entry *)right)->id);
 }
 
-fm_status plugin_list_open(fm_plugin_list *list, const char *const *extra, fm_error *err)
+static fm_status visit_folders(fm_plugin_list *list, const char *const *extra, folder_visit *visit,
+                               fm_error *err)
 {
     fm_status status = FM_OK;
+    for (; extra != NULL && *extra != NULL && status == FM_OK; extra++)
+        status = visit(list, *extra, err);
+    const char *folders = getenv("FRAGMARK_PLUGIN_PATH");
+    if (status == FM_OK && folders != NULL)
+        status = visit_path(list, folders, visit, err);
+    return status == FM_OK ? visit_beside_executable(list, visit, err) : status;
+}
+
+fm_status plugin_list_open(fm_plugin_list *list, const char *const *extra, fm_error *err)
+{
     fm_error ignored;
     if (err == NULL)
         err = &ignored;
     *list = (fm_plugin_list){ 0 };
-    for (; extra != NULL && *extra != NULL && status == FM_OK; extra++)
-        status = scan_folder(list, *extra, err);
-    const char *folders = getenv("FRAGMARK_PLUGIN_PATH");
-    if (status == FM_OK && folders != NULL)
-        status = scan_path(list, folders, err);
+    /* Plugins of an earlier folder may use shaders of methods in a later one. */
+    fm_status status = visit_folders(list, extra, note_common, err);
     if (status == FM_OK)
-        status = scan_beside_executable(list, err);
+        status = visit_folders(list, extra, scan_folder, err);
     if (status != FM_OK) {
         plugin_list_close(list);
         return status;

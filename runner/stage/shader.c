@@ -199,17 +199,6 @@ void shader_declare(fm_text *text, const fm_use *uses, size_t count, const char 
     }
 }
 
-static fm_status find_file(char path[FM_PATH_MAX_BYTES], const fm_shader_folders *folders,
-                           const char *file, fm_error *err)
-{
-    static const char common[] = "common/";
-    char other[FM_PATH_MAX_BYTES];
-    if (strncmp(file, common, sizeof common - 1) == 0)
-        return path_join(path, folders->common, file + sizeof common - 1, err);
-    snprintf(other, sizeof other, "%s%s", strchr(file, '/') != NULL ? "../" : "", file);
-    return path_join(path, folders->method, other, err);
-}
-
 /* The file named in a line `#include "file"`, or false. Blanks of sscanf would take empty lines and
  * then find the next line's include. */
 static bool include_of(char file[128], const char *line)
@@ -228,7 +217,7 @@ static fm_status add_file(fm_text *text, const fm_shader_folders *folders, const
                        INCLUDE_DEPTH_MAX);
     if (strstr(file, "..") != NULL || file[0] == '/')
         return fm_fail(err, FM_INVALID, "%s: shader files are named by METHOD/FILE or FILE", file);
-    fm_status status = find_file(path, folders, file, err);
+    fm_status status = shader_file_find(path, folders, file, err);
     if (status == FM_OK)
         status = text_read_file(&bytes, &count, path, SHADER_FILE_MAX_BYTES, err);
     if (status != FM_OK)

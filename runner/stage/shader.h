@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "device/device.h"
 #include "model/settings.h"
+#include "plugin/shader_files.h"
 
 /* A resource as shaders see it. */
 typedef struct fm_slot {
@@ -52,12 +53,6 @@ typedef struct fm_table_line {
     uint32_t length, unused;
 } fm_table_line;
 _Static_assert(sizeof(fm_table_line) == SHADER_TABLE_STRIDE, "std140 block fm_table");
-
-/* Folders that shader files come from. */
-typedef struct fm_shader_folders {
-    const char *method; /* the plugin's folder */
-    const char *common; /* the runner's GLSL */
-} fm_shader_folders;
 
 /* #version, the extensions of the features that this shader uses (FM_FEATURE_*, all of which the
  * device has), and what depends on the device alone. */

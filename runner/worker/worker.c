@@ -72,9 +72,10 @@ static bool has_frames(const launch_job *job)
 static fm_status open_plugins(launch_job *job)
 {
     job->is_opening = true;
-    fm_status status = plugin_open(&job->method, job->request->plugin, &job->error);
+    fm_status status =
+        plugin_open(&job->method, job->request->plugin, job->request->common, &job->error);
     if (status == FM_OK && !has_frames(job))
-        status = plugin_open(&job->floor, job->request->floor, &job->error);
+        status = plugin_open(&job->floor, job->request->floor, job->request->common, &job->error);
     job->is_opening = status != FM_OK;
     return status;
 }

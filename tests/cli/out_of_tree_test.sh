@@ -30,13 +30,15 @@ grep -q 'kplus-array' "$temporary/methods" || {
     exit 1
 }
 
-"$prefix/bin/fragmark" run --plugin-dir "$plugins" --method nearest-lock --scene layers -a n=4 \
+"$prefix/bin/fragmark" run --plugin-dir "$plugins" --method nearest-lock,nearest-list --scene layers -a n=4 \
     -a width_px=64 -a height_px=48 -a launches=1 -a frames=5 -o "$temporary/out"
-grep -q ',ok,.*,nearest-lock,' "$temporary/out/summary.csv" || {
-    echo "summary.csv has no row of nearest-lock that is ok:"
-    cat "$temporary/out/summary.csv"
-    exit 1
-}
+for method in nearest-lock nearest-list; do
+    grep -q ",ok,.*,$method," "$temporary/out/summary.csv" || {
+        echo "summary.csv has no row of $method that is ok:"
+        cat "$temporary/out/summary.csv"
+        exit 1
+    }
+done
 
 "$prefix/bin/fragmark" run --plugin-dir "$plugins" --device tbr --scene frames/gl-demo --no-report \
     --method tbr-base,tbr-depth-last -o "$temporary/frames"

@@ -20,7 +20,7 @@ static void assert_plugin_refused(const char *id, const char *part)
     fm_plugin *plugin;
     fm_error err = { 0 };
     snprintf(path, sizeof path, "%s/%s/%s.so", FM_TEST_PLUGINS, id, id);
-    assert_int_equal(plugin_open(&plugin, path, &err), FM_INVALID);
+    assert_int_equal(plugin_open(&plugin, path, NULL, &err), FM_INVALID);
     assert_null(plugin);
     snprintf(path, sizeof path, "%s.so: ", id);
     if (strncmp(err.message, path, strlen(path)) != 0 || strstr(err.message, part) == NULL)
@@ -32,7 +32,7 @@ static void plugin_open_takes_a_good_plugin(void **state)
     (void)state;
     fm_plugin *plugin;
     fm_error err = { 0 };
-    if (plugin_open(&plugin, FM_TEST_PLUGINS "/good/good.so", &err) != FM_OK)
+    if (plugin_open(&plugin, FM_TEST_PLUGINS "/good/good.so", NULL, &err) != FM_OK)
         fail_msg("%s", err.message);
     assert_string_equal(plugin->method->id, "good");
     assert_string_equal(plugin->folder, FM_TEST_PLUGINS "/good");
@@ -100,8 +100,8 @@ static void plugin_open_takes_a_shader_that_will_not_compile(void **state)
 {
     (void)state;
     fm_plugin *plugin;
-    assert_int_equal(plugin_open(&plugin, FM_TEST_PLUGINS "/broken-shader/broken-shader.so", NULL),
-                     FM_OK);
+    assert_int_equal(
+        plugin_open(&plugin, FM_TEST_PLUGINS "/broken-shader/broken-shader.so", NULL, NULL), FM_OK);
     plugin_close(plugin);
 }
 
@@ -110,7 +110,7 @@ static void plugin_open_of_a_missing_file_is_an_io_error(void **state)
     (void)state;
     fm_plugin *plugin;
     fm_error err;
-    assert_int_equal(plugin_open(&plugin, "/nonexistent/x.so", &err), FM_IO);
+    assert_int_equal(plugin_open(&plugin, "/nonexistent/x.so", NULL, &err), FM_IO);
     assert_null(plugin);
 }
 
@@ -119,7 +119,8 @@ static void plugin_open_rejects_what_is_no_shared_object(void **state)
     (void)state;
     fm_plugin *plugin;
     fm_error err;
-    assert_int_equal(plugin_open(&plugin, FM_TEST_PLUGINS "/good/store.glsl", &err), FM_INVALID);
+    assert_int_equal(plugin_open(&plugin, FM_TEST_PLUGINS "/good/store.glsl", NULL, &err),
+                     FM_INVALID);
     assert_non_null(strstr(err.message, "cannot be loaded"));
 }
 
@@ -131,7 +132,7 @@ static void plugin_list_holds_good_and_refused_plugins(void **state)
     fm_error err = { 0 };
     unsetenv("FRAGMARK_PLUGIN_PATH");
     assert_int_equal(plugin_list_open(&list, folders, &err), FM_OK);
-    assert_int_equal(list.count, 11);
+    assert_int_equal(list.count, 12);
     for (size_t i = 1; i < list.count; i++)
         assert_true(strcmp(list.entries[i - 1].id, list.entries[i].id) < 0);
     const fm_plugin_entry *good = plugin_list_find(&list, "good");
@@ -151,7 +152,7 @@ static void plugin_list_takes_the_first_folder_of_an_id(void **state)
     fm_plugin_list list;
     setenv("FRAGMARK_PLUGIN_PATH", ":" FM_TEST_PLUGINS "/.::", 1);
     assert_int_equal(plugin_list_open(&list, folders, NULL), FM_OK);
-    assert_int_equal(list.count, 11);
+    assert_int_equal(list.count, 12);
     assert_string_equal(plugin_list_find(&list, "good")->plugin->folder, FM_TEST_PLUGINS "/good");
     plugin_list_close(&list);
 }
@@ -201,6 +202,38 @@ static void plugin_list_names_a_folder_that_is_missing(void **state)
     assert_non_null(strstr(err.message, "FRAGMARK_PLUGIN_PATH"));
 }
 
+/* A folder of methods with the runner's GLSL, and a method `lender` that has one shader. */
+static void make_lender(char root[32])
+{
+    char command[256];
+    assert_non_null(mkdtemp(root));
+    snprintf(command, sizeof command,
+             "mkdir %s/common %s/lender && touch %s/common/prelude.glsl %s/lender/piece.glsl", root,
+             root, root, root);
+    assert_int_equal(system(command), 0);
+}
+
+static void a_shader_of_another_method_lies_beside_the_runners_too(void **state)
+{
+    (void)state;
+    char root[32] = "/tmp/fragmark-plugins-XXXXXX", command[64];
+    fm_plugin_list list;
+    make_lender(root);
+    const char *const folders[] = { FM_TEST_PLUGINS, root, NULL };
+    unsetenv("FRAGMARK_PLUGIN_PATH");
+    assert_int_equal(plugin_list_open(&list, folders, NULL), FM_OK);
+    assert_non_null(plugin_list_find(&list, "borrower")->plugin);
+    plugin_list_close(&list);
+    snprintf(command, sizeof command, "rm -r %s", root);
+    assert_int_equal(system(command), 0);
+}
+
+static void a_shader_of_another_method_that_is_nowhere_is_refused(void **state)
+{
+    (void)state;
+    assert_plugin_refused("borrower", "pass 'resolve': shader 'lender/piece.glsl': cannot read");
+}
+
 static void plugin_list_finds_the_runners_shaders(void **state)
 {
     (void)state;
@@ -240,6 +273,8 @@ int main(void)
         cmocka_unit_test(plugin_list_get_names_the_nearest_id),
         cmocka_unit_test(plugin_list_without_a_floor_says_so),
         cmocka_unit_test(plugin_list_names_a_folder_that_is_missing),
+        cmocka_unit_test(a_shader_of_another_method_lies_beside_the_runners_too),
+        cmocka_unit_test(a_shader_of_another_method_that_is_nowhere_is_refused),
         cmocka_unit_test(plugin_list_finds_the_runners_shaders),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -23,7 +23,7 @@ kit_technique kit_technique_open(const char *words)
     snprintf(copy, sizeof copy, "%s", words);
     const char *id = strsep(&rest, " ");
     snprintf(path, sizeof path, "%s/%s/%s.so", getenv("FRAGMARK_PLUGIN_PATH"), id, id);
-    if (plugin_open(&technique.plugin, path, &err) != FM_OK)
+    if (plugin_open(&technique.plugin, path, NULL, &err) != FM_OK)
         die(err.message);
     for (char *word; (word = strsep(&rest, " ")) != NULL; count++) {
         const char *value = strchr(word, '=');
