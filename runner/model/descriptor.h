@@ -1,4 +1,5 @@
-/* Questions to a descriptor: how long its lists are, and what is chosen of its options. */
+/* Questions to a descriptor: how long its lists are, and what is chosen of its options. The
+ * descriptor was checked (plugin_check) or is the runner's own; answers point into it. */
 #ifndef FM_DESCRIPTOR_H
 #define FM_DESCRIPTOR_H
 
@@ -7,18 +8,22 @@
 
 #include "fragmark/method.h"
 
+/* Lengths of the lists, FM_MAX_* at most. */
 size_t pass_count(const fm_method_desc *method);
 size_t resource_count(const fm_method_desc *method);
 size_t total_count(const fm_method_desc *method);
-size_t access_count(const char *const names[FM_MAX_ACCESSES]); /* of reads or writes */
+/* Of a pass's reads, or of its writes. */
+size_t access_count(const char *const names[FM_MAX_ACCESSES]);
 
-/* One chosen value of a method's own option. */
+/* What a user chose for one of a method's own options; texts of the command line or a spec. */
 typedef struct fm_choice {
-    char name[64], value[64];
+    char name[64];  /* of the option */
+    char value[64]; /* one of its values, once the plan has checked it */
 } fm_choice;
 
-/* The method's option of that name, or NULL. */
+/* The method's option of that name; NULL: it has none. */
 const fm_option *option_find(const fm_method_desc *method, const char *name);
+/* Whether the option may have this value; values compare as texts. */
 bool option_has_value(const fm_option *option, const char *value);
 /* What is chosen for the method's option: one of `choices`, or its first value; NULL: it has no
  * option of that name. */

@@ -1,18 +1,22 @@
-/* What a method asks for, by its descriptor alone: extents and formats, for a workload. No device.
- */
+/* What a method asks for, by its descriptor alone: extents, formats and counts for a workload. No
+ * device and no allocation. Sizes beyond 64 bits stay at UINT64_MAX, which no device has. */
 #ifndef FM_FORMULA_H
 #define FM_FORMULA_H
 
 #include "fragmark/method.h"
 
-/* Elements of an extent; a named total counts as workload->totals has it. Sizes beyond 64 bits stay
- * at UINT64_MAX, which no device has. */
+/* Elements of an extent: the sum of its terms. A named total counts as workload->totals has it, an
+ * option as the whole number that workload->option answers. */
 uint64_t formula_elements(const fm_method_desc *method, const fm_extent *extent,
                           const fm_workload *workload);
+/* Array layers of an image: 1 at least. */
 uint32_t formula_layers(const fm_resource *resource, const fm_workload *workload);
+/* Samples of each of its texels: 1 at least, not necessarily a number that a device has. */
 uint32_t formula_samples(const fm_resource *resource, const fm_workload *workload);
+/* Bytes of one copy of an image, as formats book them. */
 uint64_t formula_image_bytes(const fm_resource *resource, const fm_workload *workload);
-/* Elements that a frame uses of it, in bytes; images whole. */
+/* Bytes of the elements that hold something in a frame (fm_used), however long the buffer is;
+ * images count whole. */
 uint64_t formula_used_bytes(const fm_resource *resource, const fm_workload *workload);
 /* Bytes of a buffer that shares no other's memory: of its own extent, or of the largest that shares
  * its. */
@@ -22,8 +26,9 @@ uint64_t formula_buffer_bytes(const fm_method_desc *method, const fm_resource *r
  * the column bytes_predicted says. The runner's spin locks are not in it. */
 uint64_t formula_bytes(const fm_method_desc *method, const fm_workload *workload);
 
+/* Whether a loop has a count, though it be 0 for a workload; else a total or a hook ends it. */
 bool loop_is_counted(const fm_loop *loop);
-/* Iterations of a loop that is counted. */
+/* Iterations of a loop that is counted; fewer run if a total ends it or its max is less. */
 uint32_t formula_count(const fm_loop *loop, const fm_workload *workload);
 
 /* Squares of FM_TILE_PX in the viewport, border tiles counted. */
