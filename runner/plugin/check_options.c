@@ -20,7 +20,16 @@ static bool is_numeric(const fm_option *option, size_t value_count)
     return true;
 }
 
-/* A value of letters becomes the end of a macro's name; a number does not. */
+/* Then the option's macro is the number itself, and no value has a macro of its own. */
+static bool is_whole(const fm_option *option, size_t value_count)
+{
+    uint64_t number;
+    for (size_t i = 0; i < value_count; i++)
+        if (!text_to_u64(&number, option->values[i]))
+            return false;
+    return true;
+}
+
 static fm_status check_value(const char *value, bool is_number, fm_error *err)
 {
     char word[DEFINE_MAX_BYTES];
@@ -39,7 +48,7 @@ static fm_status add_define(define_text *defines, size_t *count, const char *nam
 {
     char *define = defines[*count];
     snprintf(define, sizeof(define_text), "%s%s%s", name, *value == '\0' ? "" : "_", value);
-    check_fold_hyphens(define);
+    check_fold_name(define);
     if (check_is_taken(define) || strcmp(define, "k") == 0 || strcmp(define, "n") == 0)
         return fm_fail(err, FM_INVALID, "its macro would be '%s', which is reserved", define);
     for (size_t i = 0; i < *count; i++)
@@ -66,10 +75,11 @@ static fm_status check_option(const fm_option *option, define_text *defines, siz
     if (value_count == 0)
         return fm_fail(err, FM_INVALID, "values: none");
     const bool is_number = is_numeric(option, value_count);
+    const bool has_macros = !is_whole(option, value_count);
     status = add_define(defines, define_count, option->name, "", err);
     for (size_t i = 0; i < value_count && status == FM_OK; i++) {
         status = check_value(option->values[i], is_number, err);
-        if (status == FM_OK && !is_number)
+        if (status == FM_OK && has_macros)
             status = add_define(defines, define_count, option->name, option->values[i], err);
     }
     return status;

@@ -36,7 +36,7 @@ static fm_status check_pass_name(const fm_checked_method *check, const fm_pass *
     if (!kind_rules[pass->kind].has_shader || pass->kind == FM_PASS_SCENE)
         return FM_OK;
     memcpy(function, pass->name, length + 1);
-    check_fold_hyphens(function);
+    check_fold_name(function);
     if (check_is_reserved(function))
         return fm_fail(err, FM_INVALID, "name: its function '%s' is a reserved word", function);
     for (size_t i = 0; i < check->resources.count; i++)

@@ -1,5 +1,6 @@
 #include "check_words.h"
 
+#include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -54,10 +55,10 @@ bool check_is_word(const char *name, const char *others)
     return true;
 }
 
-void check_fold_hyphens(char *name)
+void check_fold_name(char *name)
 {
     for (; *name != '\0'; name++)
-        if (*name == '-')
+        if (!isalnum((unsigned char)*name))
             *name = '_';
 }
 

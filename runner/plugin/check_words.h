@@ -39,7 +39,7 @@ bool check_is_word(const char *name, const char *others);
 bool check_is_taken(const char *name);
 /* Whether no variable or function may have this name: those, and words of GLSL such as buffer. */
 bool check_is_reserved(const char *name);
-/* Replaces '-' by '_', as GLSL sees names. */
-void check_fold_hyphens(char *name);
+/* Replaces all but letters and digits by '_', as the runner writes names in GLSL. */
+void check_fold_name(char *name);
 
 #endif

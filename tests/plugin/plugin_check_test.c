@@ -157,6 +157,12 @@ static void plugin_check_rejects_bad_options(void **state)
     REFUSES(m.options[0].values[0] = NULL, "values[1]");
     REFUSES(m.options[0].values[1] = "pixel", "twice");
     REFUSES(m.options[0].values[1] = "a b", "value 'a b'");
+    REFUSES((m.options[2] = (fm_option){ "bias", { "1", "-1" }, NULL }),
+            "option 'bias': its macro would be 'bias__1', which is reserved");
+    REFUSES((m.options[2] = (fm_option){ "scale", { "0.5", "1" }, NULL },
+             m.options[3] = (fm_option){ "scale-0-5", { "on" }, NULL }),
+            "option 'scale-0-5': its macro 'scale_0_5' is there already");
+    ACCEPTS((m.options[2] = (fm_option){ "scale", { "0.5", "1" }, NULL }));
     REFUSES(m.options[1].values[1] = "8.5", "its value '8.5' is no whole number");
     REFUSES((m.options[2] = (fm_option){ "layout-pixel", { "on" }, NULL }), "there already");
     REFUSES((m.options[2] = (fm_option){ "empty", { NULL }, NULL }), "values: none");

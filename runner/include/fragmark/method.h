@@ -125,7 +125,8 @@ typedef enum fm_marker {
 typedef struct fm_option {
     const char *name; /* lower-case letters, digits, '-' and '_'; no key of the runner */
     const char *values[FM_MAX_OPTION_VALUES]; /* the first is the default; letters as in a name, or
-                                                 numbers */
+                                                 numbers. A fraction has a macro as a word has one,
+                                                 with '_' for its point */
     const char *help;                         /* one line of UTF-8 for `list methods` */
 } fm_option;
 
