@@ -26,8 +26,8 @@ symbols() {
 includes() {
     local room folder archive
     while read -r room folder archive; do
-        grep -HE '^#include "[a-z_/]+/[a-z_0-9]+\.h"' "$root/$folder"/*.[ch] "$root/$folder"/*.cpp 2>/dev/null |
-            sed -E "s#^$root/([^:]+):\#include \"(.*)/([^/]+)\"#inc $room \1 \2 \2/\3#"
+        { grep -HE '^#include "[a-z_/]+/[a-z_0-9]+\.h"' "$root/$folder"/*.[ch] "$root/$folder"/*.cpp 2>/dev/null ||
+            true; } | sed -E "s#^$root/([^:]+):\#include \"(.*)/([^/]+)\"#inc $room \1 \2 \2/\3#"
     done <"$list"
 }
 

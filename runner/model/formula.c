@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "device/device.h"
 #include "model/formats.h"
 
 int total_index(const fm_method_desc *method, const char *name)
