@@ -1,11 +1,8 @@
 /* Figures drawn from fabricated results: whose cases, which metrics, which marks. */
 #include <sys/wait.h>
 
-#include "claims_kit.h"
-#include "draw/chart.h"
-#include "draw/figure_charts.h"
 #include "draw/speed_error.h"
-#include "read/group.h"
+#include "figure_kit.h"
 
 static const char figure_text[] =
     "id: f-1\npaper: f\ntitle: t\nrun:\n  - { methods: [a] }\n  - { methods: [b] }\n"
@@ -21,38 +18,9 @@ static const fakes usual = { { { ROW("a", 4, 0.25, 10) },
                                { ROW("b", 4, 0.25, 40) },
                                { ROW("a", 4, 0.75, 30) } } };
 
-/* A directory with results and the figure, both read. */
-typedef struct fixture {
-    char directory[64];
-    fm_result_files *results;
-    fm_paper_figure *figure;
-} fixture;
-
-static void open_fixture_of(fixture *made, const fakes *rows, const char *text,
-                            const char *figures_csv)
-{
-    char path[256];
-    fm_error err = { 0 };
-    kit_make_results(made->directory, rows);
-    kit_write_file(made->directory, "f-1.yml", text);
-    if (figures_csv != NULL)
-        kit_write_file(made->directory, "figures.csv", figures_csv);
-    snprintf(path, sizeof path, "%s/f-1.yml", made->directory);
-    if (paper_figure_read(&made->figure, path, &err) != FM_OK ||
-        result_files_read(&made->results, made->directory, &err) != FM_OK)
-        fail_msg("%s", err.message);
-}
-
-static void close_fixture(fixture *made)
-{
-    paper_figure_close(made->figure);
-    result_files_close(made->results);
-    kit_remove_directory(made->directory);
-}
-
 static void open_fixture(fixture *made, const char *figures_csv)
 {
-    open_fixture_of(made, &usual, figure_text, figures_csv);
+    fixture_open(made, &usual, figure_text, figures_csv);
 }
 
 static size_t count_taken(const fixture *in)
@@ -73,7 +41,7 @@ static void figures_csv_tells_whose_a_case_is(void **state)
     assert_true(figure_takes_case(&with.results->cases[0], &cases));
     assert_false(figure_takes_case(&with.results->cases[1], &cases));
     assert_int_equal(count_taken(&with), 2);
-    close_fixture(&with);
+    fixture_close(&with);
 }
 
 static void figure_that_figures_csv_does_not_name_takes_nothing(void **state)
@@ -82,7 +50,7 @@ static void figure_that_figures_csv_does_not_name_takes_nothing(void **state)
     fixture with;
     open_fixture(&with, "figure,case_id\nf-2,c0\n");
     assert_int_equal(count_taken(&with), 0);
-    close_fixture(&with);
+    fixture_close(&with);
 }
 
 static void without_figures_csv_a_figure_of_several_runs_takes_all(void **state)
@@ -91,7 +59,7 @@ static void without_figures_csv_a_figure_of_several_runs_takes_all(void **state)
     fixture with;
     open_fixture(&with, NULL);
     assert_int_equal(count_taken(&with), 4);
-    close_fixture(&with);
+    fixture_close(&with);
 }
 
 static void frames_per_second_follow_from_the_time(void **state)
@@ -109,61 +77,37 @@ static void frames_per_second_follow_from_the_time(void **state)
     const fm_interval total = result_files_interval(&samples, with.results, row, sum, 3);
     assert_true(fabs(total.median - 11.0) < 1e-9); /* no count pass: nothing is added */
     assert_int_equal(samples, 6);
-    close_fixture(&with);
-}
-
-static void make_groups(fm_groups *groups, const fixture *in, const fm_figure_chart *chart)
-{
-    const fm_figure_cases cases = figure_cases(in->results, in->figure);
-    const fm_groups_desc desc = { .filter = figure_takes_case,
-                                  .context = &cases,
-                                  .free_columns = figure_free_columns(chart) };
-    assert_int_equal(groups_make(groups, in->results, &desc, NULL), FM_OK);
+    fixture_close(&with);
 }
 
 static void grouped_bars_bear_the_papers_marks_of_their_workload(void **state)
 {
     (void)state;
-    fixture with;
-    fm_groups groups;
-    fm_chart chart;
-    fm_error err = { 0 };
-    open_fixture(&with, NULL);
-    make_groups(&groups, &with, &with.figure->charts[0]);
-    assert_int_equal(groups.count, 2); /* by pixel density */
-    const fm_figure_source own = { with.results, &groups.groups[0] }, none = { NULL, NULL };
-    assert_int_equal(
-        figure_chart_make(&chart, with.figure, &with.figure->charts[0], &own, &none, &err), FM_OK);
-    assert_int_equal(chart.bar_count, 3);
-    assert_true(chart.bars[0].y0 == chart.y.low && chart.bars[0].y1 == 100.0);
-    assert_int_equal(chart.series[0].point_count, 3); /* intervals */
-    assert_string_equal(chart.series[1].label, "paper");
-    assert_int_equal(chart.series[1].point_count, 2);
-    assert_true(chart.series[1].points[0].y == 50.0 && chart.series[1].points[1].y == 40.0);
-    chart_free(&chart);
-    groups_free(&groups);
-    close_fixture(&with);
+    drawing made;
+    drawing_open(&made, &usual, figure_text, NULL, 0);
+    assert_int_equal(made.groups.count, 2); /* by pixel density */
+    assert_int_equal(made.chart.bar_count, 3);
+    assert_true(made.chart.bars[0].y0 == made.chart.y.low && made.chart.bars[0].y1 == 100.0);
+    assert_int_equal(made.chart.series[0].point_count, 3); /* intervals */
+    assert_string_equal(made.chart.series[1].label, "paper");
+    assert_int_equal(made.chart.series[1].point_count, 2);
+    assert_true(made.chart.series[1].points[0].y == 50.0 &&
+                made.chart.series[1].points[1].y == 40.0);
+    drawing_close(&made);
 }
 
 static void charts_may_run_along_any_column(void **state)
 {
     (void)state;
-    fixture with;
-    fm_groups groups;
-    fm_chart chart;
-    fm_error err = { 0 };
-    open_fixture(&with, "figure,case_id\nf-1,c0\nf-1,c3\n");
-    make_groups(&groups, &with, &with.figure->charts[1]);
-    assert_int_equal(groups.count, 1);
-    const fm_figure_source own = { with.results, &groups.groups[0] }, none = { NULL, NULL };
-    assert_int_equal(
-        figure_chart_make(&chart, with.figure, &with.figure->charts[1], &own, &none, &err), FM_OK);
-    assert_int_equal(chart.series[0].point_count, 2);
-    assert_true(chart.series[0].points[0].x == 0.25 && chart.series[0].points[0].y == 11.0);
-    assert_true(chart.series[0].points[1].x == 0.75 && chart.series[0].points[1].y == 31.0);
-    chart_free(&chart);
-    groups_free(&groups);
-    close_fixture(&with);
+    drawing made;
+    drawing_open(&made, &usual, figure_text, "figure,case_id\nf-1,c0\nf-1,c3\n", 1);
+    assert_int_equal(made.groups.count, 1);
+    assert_int_equal(made.chart.series[0].point_count, 2);
+    assert_true(made.chart.series[0].points[0].x == 0.25 &&
+                made.chart.series[0].points[0].y == 11.0);
+    assert_true(made.chart.series[0].points[1].x == 0.75 &&
+                made.chart.series[0].points[1].y == 31.0);
+    drawing_close(&made);
 }
 
 static const char tornado_text[] =
@@ -206,61 +150,43 @@ static size_t place_of_label(const fm_chart *chart, const char *text)
 static void tornado_has_the_longest_bar_on_top(void **state)
 {
     (void)state;
-    fixture with;
-    fm_groups groups;
-    fm_chart chart;
-    fm_error err = { 0 };
-    open_fixture_of(&with, &pairs, tornado_text, NULL);
-    make_groups(&groups, &with, &with.figure->charts[0]);
-    assert_int_equal(groups.count, 1);
-    const fm_figure_source own = { with.results, &groups.groups[0] }, none = { NULL, NULL };
-    assert_int_equal(
-        figure_chart_make(&chart, with.figure, &with.figure->charts[0], &own, &none, &err), FM_OK);
-    assert_int_equal(chart.bar_count, 4); /* two a parameter, from the defaults' ratio */
-    assert_spans(&chart.bars[0], 0.5, 3.0);
-    assert_spans(&chart.bars[1], 3.0, 3.0);
-    assert_spans(&chart.bars[2], 3.0, 113.0 / 36);
-    assert_true(chart.bars[0].y0 > chart.bars[2].y1);
-    assert_true(place_of_label(&chart, "wide") < place_of_label(&chart, "narrow"));
-    assert_true(nearly(chart.series[0].points[0].x, 3.0) &&
-                nearly(chart.series[0].points[1].x, 3.0));
-    assert_true(chart.x.low < 0.5 && chart.x.low > 0.0 && chart.x.high > 113.0 / 36);
-    assert_string_equal(chart.notes[0], "parameters without values: 1");
-    chart_free(&chart);
-    groups_free(&groups);
-    close_fixture(&with);
+    drawing made;
+    drawing_open(&made, &pairs, tornado_text, NULL, 0);
+    assert_int_equal(made.groups.count, 1);
+    assert_int_equal(made.chart.bar_count, 4); /* two a parameter, from the defaults' ratio */
+    assert_spans(&made.chart.bars[0], 0.5, 3.0);
+    assert_spans(&made.chart.bars[1], 3.0, 3.0);
+    assert_spans(&made.chart.bars[2], 3.0, 113.0 / 36);
+    assert_true(made.chart.bars[0].y0 > made.chart.bars[2].y1);
+    assert_true(place_of_label(&made.chart, "wide") < place_of_label(&made.chart, "narrow"));
+    assert_true(nearly(made.chart.series[0].points[0].x, 3.0) &&
+                nearly(made.chart.series[0].points[1].x, 3.0));
+    assert_true(made.chart.x.low < 0.5 && made.chart.x.low > 0.0 && made.chart.x.high > 113.0 / 36);
+    assert_string_equal(made.chart.notes[0], "parameters without values: 1");
+    drawing_close(&made);
 }
 
 static void lines_by_scene_bear_the_scenes_names(void **state)
 {
     (void)state;
-    fixture with;
-    fm_groups groups;
-    fm_chart chart;
-    fm_error err = { 0 };
-    open_fixture_of(&with, &usual,
-                    "id: f-1\npaper: f\ntitle: t\n"
-                    "run: { methods: [a, b], scenes: [folder/absent, layers], feeds: [raster] }\n"
-                    "charts:\n  - { id: c, title: c, x: scene, y: frame_ms }\n",
-                    "figure,case_id\nf-1,c0\nf-1,c2\n");
-    make_groups(&groups, &with, &with.figure->charts[0]);
-    assert_int_equal(groups.count, 1);
-    const fm_figure_source own = { with.results, &groups.groups[0] }, none = { NULL, NULL };
-    assert_int_equal(
-        figure_chart_make(&chart, with.figure, &with.figure->charts[0], &own, &none, &err), FM_OK);
-    assert_int_equal(chart.label_count, 2);
-    assert_string_equal(chart.labels[0].text, "absent");
-    assert_string_equal(chart.labels[1].text, "layers");
-    assert_true(chart.labels[1].upright);
-    assert_true(chart.series[0].points[0].x == 2.0);
-    assert_true(fabs(chart.labels[1].x_px - axis_position(&chart.x, 2.0)) < 10);
-    assert_int_equal(chart.x.tick_count, 2);
-    assert_string_equal(chart.x.ticks[1].label, "");
-    assert_string_equal(chart.x.title, "");
-    assert_true(chart.bottom_px > chart_text_width_px("absent", 11));
-    chart_free(&chart);
-    groups_free(&groups);
-    close_fixture(&with);
+    drawing made;
+    drawing_open(&made, &usual,
+                 "id: f-1\npaper: f\ntitle: t\n"
+                 "run: { methods: [a, b], scenes: [folder/absent, layers], feeds: [raster] }\n"
+                 "charts:\n  - { id: c, title: c, x: scene, y: frame_ms }\n",
+                 "figure,case_id\nf-1,c0\nf-1,c2\n", 0);
+    assert_int_equal(made.groups.count, 1);
+    assert_int_equal(made.chart.label_count, 2);
+    assert_string_equal(made.chart.labels[0].text, "absent");
+    assert_string_equal(made.chart.labels[1].text, "layers");
+    assert_true(made.chart.labels[1].upright);
+    assert_true(made.chart.series[0].points[0].x == 2.0);
+    assert_true(fabs(made.chart.labels[1].x_px - axis_position(&made.chart.x, 2.0)) < 10);
+    assert_int_equal(made.chart.x.tick_count, 2);
+    assert_string_equal(made.chart.x.ticks[1].label, "");
+    assert_string_equal(made.chart.x.title, "");
+    assert_true(made.chart.bottom_px > chart_text_width_px("absent", 11));
+    drawing_close(&made);
 }
 
 static fm_status read_tornado(const char *keys, fm_error *err)
@@ -302,7 +228,7 @@ static void another_machine_draws_thin_curves(void **state)
     fm_chart chart;
     fm_error err = { 0 };
     open_fixture(&with, "figure,case_id\nf-1,c0\nf-1,c3\n");
-    make_groups(&groups, &with, &with.figure->charts[1]);
+    fixture_groups(&groups, &with, &with.figure->charts[1]);
     const fm_figure_source own = { with.results, &groups.groups[0] };
     const fm_figure_source other = {
         with.results, figure_reference_group(&groups, &groups.groups[0], &with.figure->charts[1])
@@ -316,7 +242,7 @@ static void another_machine_draws_thin_curves(void **state)
     assert_string_equal(chart.notes[1], "thin: llvmpipe");
     chart_free(&chart);
     groups_free(&groups);
-    close_fixture(&with);
+    fixture_close(&with);
 }
 
 static void variants_of_a_method_are_darker(void **state)
