@@ -16,21 +16,27 @@ static void *chart_grow(void **entries, size_t *count, size_t *capacity, size_t 
     return (char *)*entries + entry_bytes * (*count)++;
 }
 
-fm_series *chart_add_series(fm_chart *chart, size_t point_capacity)
+fm_series *chart_add_series(fm_chart *chart)
 {
-    fm_point *points = calloc(point_capacity + 1, sizeof *points);
     void *entries = chart->series;
-    fm_series *series = points == NULL ? NULL
-                                       : chart_grow(&entries, &chart->series_count,
-                                                    &chart->series_capacity, sizeof *series);
+    fm_series *series =
+        chart_grow(&entries, &chart->series_count, &chart->series_capacity, sizeof *series);
     chart->series = entries;
-    if (series == NULL) {
-        free(points);
-        chart->failed = true;
-        return NULL;
-    }
-    *series = (fm_series){ .points = points };
+    chart->failed |= series == NULL;
+    if (series != NULL)
+        *series = (fm_series){ 0 };
     return series;
+}
+
+void chart_add_point(fm_chart *chart, fm_series *series, const fm_point *point)
+{
+    void *entries = series->points;
+    fm_point *added =
+        chart_grow(&entries, &series->point_count, &series->point_capacity, sizeof *added);
+    series->points = entries;
+    chart->failed |= added == NULL;
+    if (added != NULL)
+        *added = *point;
 }
 
 fm_bar *chart_add_bar(fm_chart *chart)

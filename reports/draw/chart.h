@@ -37,7 +37,7 @@ typedef struct fm_series {
     bool hollow;      /* white inside */
     bool swatch;      /* the legend shows a filled square: the key of bars of that colour */
     fm_point *points; /* point_count, in drawing order; owned by chart_free */
-    size_t point_count;
+    size_t point_count, point_capacity;
 } fm_series;
 
 typedef struct fm_bar {
@@ -76,9 +76,11 @@ typedef struct fm_chart {
 
 /* Adds one zeroed entry; NULL when out of memory (remembered in `failed`). The pointer holds until
  * the next one of its kind is added. */
-fm_series *chart_add_series(fm_chart *chart, size_t point_capacity);
+fm_series *chart_add_series(fm_chart *chart);
 fm_bar *chart_add_bar(fm_chart *chart);
 fm_label *chart_add_label(fm_chart *chart);
+/* Adds a point at the end of a series of this chart. Out of memory is remembered in `failed`. */
+void chart_add_point(fm_chart *chart, fm_series *series, const fm_point *point);
 void chart_free(fm_chart *chart);
 
 /* The chart as SVG text; the caller frees *svg. FM_NO_MEMORY; FM_INVALID: VTK could not draw it. */

@@ -85,14 +85,14 @@ static void add_marks(fm_figure_job *at, const bar_place *place, const fm_case_r
     const double middle = place->slot + 0.5;
     if (!is_grouped(at))
         return;
-    fm_point *point = &place->intervals->points[place->intervals->point_count++];
-    *point = (fm_point){ .x = middle, .y = value.median, .low = value.low, .high = value.high };
+    const fm_point ours = { .x = middle, .y = value.median, .low = value.low, .high = value.high };
+    chart_add_point(at->chart, place->intervals, &ours);
     const double paper = figure_has_paper(at) ? figure_paper_value(at, result->method, x) : NAN;
     if (!isfinite(paper))
         return;
-    point = &place->paper->points[place->paper->point_count++];
-    *point = (fm_point){ .x = middle, .y = paper, .low = NAN, .high = NAN };
-    at->y[at->y_count++] = paper;
+    const fm_point printed = { .x = middle, .y = paper, .low = NAN, .high = NAN };
+    chart_add_point(at->chart, place->paper, &printed);
+    figure_note_y(at, paper);
 }
 
 /* The bars of all cases at x, or with `level` of those that do not use x. */
@@ -105,8 +105,8 @@ static void add_cluster(fm_figure_job *at, bar_place *place, double x, bool leve
         if (!result->is_measured || figure_is_level(at, result) != level ||
             (!level && figure_x(at, result) != x))
             continue;
-        at->y[at->y_count++] =
-            is_grouped(at) ? add_single(at, place, result) : add_stack(at, place, result);
+        figure_note_y(at, is_grouped(at) ? add_single(at, place, result)
+                                         : add_stack(at, place, result));
         add_marks(at, place, result, x);
         add_upright(at->chart, place, result);
         place->slot += 1.0;
@@ -130,7 +130,7 @@ static void add_part_keys(fm_figure_job *at)
         fm_colour colour = look_part_colour(i);
         for (size_t j = 0; j < at->chart->bar_count && !is_used; j++)
             is_used = memcmp(&at->chart->bars[j].colour, &colour, sizeof colour) == 0;
-        fm_series *key = is_used ? chart_add_series(at->chart, 0) : NULL;
+        fm_series *key = is_used ? chart_add_series(at->chart) : NULL;
         if (key == NULL)
             continue;
         key->colour = colour;
@@ -155,7 +155,7 @@ static bool open_marks(bar_place *place, fm_figure_job *at)
 {
     /* Both at once: adding a series may move the ones before. */
     for (int i = 0; i < 2; i++)
-        if (chart_add_series(at->chart, at->group->count) == NULL)
+        if (chart_add_series(at->chart) == NULL)
             return false;
     place->intervals = &at->chart->series[at->chart->series_count - 2];
     place->paper = &at->chart->series[at->chart->series_count - 1];
@@ -177,7 +177,7 @@ static void finish_groups(fm_figure_job *at, const bar_place *place)
         bool is_used = false;
         for (size_t i = 0; i < chart->bar_count && !is_used; i++)
             is_used = memcmp(&chart->bars[i].colour, &colour, sizeof colour) == 0;
-        fm_series *key = is_used ? chart_add_series(chart, 0) : NULL;
+        fm_series *key = is_used ? chart_add_series(chart) : NULL;
         if (key == NULL)
             continue;
         key->colour = colour;
@@ -190,7 +190,7 @@ static void fit_axes(fm_figure_job *at, const bar_place *place)
 {
     fm_chart *chart = at->chart;
     chart->y.scale = at->from->is_log ? FM_SCALE_LOG : FM_SCALE_LINEAR;
-    axis_fit(&chart->y, at->y, at->y_count);
+    axis_fit(&chart->y, at->y.items, at->y.count);
     if (is_grouped(at))
         figure_title_quantity(chart->y.title, &at->from->ys);
     else
@@ -213,7 +213,7 @@ fm_status figure_make_bars(fm_figure_job *at, double *xs, fm_error *err)
     for (size_t i = 0; i < x_count; i++)
         add_cluster(at, &place, xs[i], false);
     add_cluster(at, &place, NAN, true);
-    if (at->y_count == 0)
+    if (at->y.count == 0)
         return fm_fail(err, FM_UNSUPPORTED, "%s: no case was measured", at->group->title);
     fit_axes(at, &place);
     if (is_grouped(at))

@@ -28,9 +28,41 @@ bool figure_takes_case(const fm_case_row *result, const void *cases)
            name_list_has(&of->figure->feeds, result->feed);
 }
 
+static void note(fm_figure_job *at, fm_numbers *numbers, double value)
+{
+    if (numbers->count == numbers->capacity) {
+        const size_t capacity = numbers->capacity > 0 ? 2 * numbers->capacity : 64;
+        double *items = reallocarray(numbers->items, capacity, sizeof *items);
+        if (items == NULL) {
+            at->chart->failed = true;
+            return;
+        }
+        numbers->items = items;
+        numbers->capacity = capacity;
+    }
+    numbers->items[numbers->count++] = value;
+}
+
+void figure_note_x(fm_figure_job *at, double value)
+{
+    note(at, &at->x, value);
+}
+
+void figure_note_y(fm_figure_job *at, double value)
+{
+    note(at, &at->y, value);
+}
+
+/* Where n = r k, the layers of a case without a k tell which k the others have; else NAN. */
+static double k_of_workload(const fm_case_row *result)
+{
+    return result->n / result->r;
+}
+
 bool figure_is_level(const fm_figure_job *at, const fm_case_row *result)
 {
-    return strcmp(at->from->x, "k") == 0 && !group_uses_k(at->group, result);
+    return strcmp(at->from->x, "k") == 0 && !group_uses_k(at->group, result) &&
+           isnan(k_of_workload(result));
 }
 
 bool figure_is_by_scene(const fm_figure_job *at)
@@ -61,6 +93,8 @@ double figure_x(const fm_figure_job *at, const fm_case_row *result)
     for (size_t i = 0; figure_is_by_scene(at) && i < at->figure->scenes.count; i++)
         if (strcmp(at->figure->scenes.names[i], result->scene) == 0)
             return (double)(i + 1);
+    if (strcmp(at->from->x, "k") == 0 && isnan(result->k))
+        return k_of_workload(result);
     double x = result_files_metric(at->results, result, at->from->x);
     match_option(option, result->options, at->from->x);
     if (isnan(x) && !text_to_double(&x, option))
@@ -113,11 +147,6 @@ const fm_group *figure_reference_group(const fm_groups *reference, const fm_grou
     return NULL;
 }
 
-static size_t room_of(const fm_group *group)
-{
-    return group == NULL ? 0 : (group->count + 1) * (group->count + 1);
-}
-
 /* How much of the group's title holds for all that is drawn: its end names the feed. */
 static int title_bytes(const fm_group *group, const fm_figure_chart *from)
 {
@@ -134,7 +163,6 @@ fm_status figure_chart_make(fm_chart *chart, const fm_paper_figure *figure,
 {
     fm_status status = FM_OK;
     const fm_group *group = own->group;
-    const size_t room = room_of(group) + room_of(reference->group) + figure->point_count;
     *chart = (fm_chart){ .x.length_px = plot_width_px, .y.length_px = plot_height_px };
     fm_figure_job at = {
         .chart = chart, .figure = figure, .from = from, .results = own->results, .group = group
@@ -145,9 +173,7 @@ fm_status figure_chart_make(fm_chart *chart, const fm_paper_figure *figure,
                             .results = reference->results,
                             .group = reference->group };
     double *xs = calloc(group->count + 1, sizeof *xs);
-    at.x = calloc(room, sizeof *at.x);
-    at.y = calloc(room, 3 * sizeof *at.y);
-    if (xs == NULL || at.x == NULL || at.y == NULL) {
+    if (xs == NULL) {
         status = fm_fail(err, FM_NO_MEMORY, "figure %s", figure->id);
         goto out;
     }
@@ -167,7 +193,7 @@ fm_status figure_chart_make(fm_chart *chart, const fm_paper_figure *figure,
         status = figure_make_bars(&at, xs, err);
 out:
     free(xs);
-    free(at.x);
-    free(at.y);
+    free(at.x.items);
+    free(at.y.items);
     return status;
 }

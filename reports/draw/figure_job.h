@@ -5,6 +5,12 @@
 #include "figure_charts.h"
 #include "read/interval.h"
 
+/* A growing list of numbers. Starts as {0}. */
+typedef struct fm_numbers {
+    double *items; /* owned */
+    size_t count, capacity;
+} fm_numbers;
+
 /* One chart being made. */
 typedef struct fm_figure_job {
     fm_chart *chart;
@@ -12,11 +18,15 @@ typedef struct fm_figure_job {
     const fm_figure_chart *from;
     const fm_result_files *results;
     const fm_group *group;
-    double *x, *y; /* values that the axes must hold; room in both for all points */
-    size_t x_count, y_count;
+    fm_numbers x, y; /* values that the axes must hold */
 } fm_figure_job;
 
-/* Drawn level over all x, for k says nothing about it. */
+/* Adds a value that an axis must hold. Out of memory is remembered in the chart's `failed`. */
+void figure_note_x(fm_figure_job *at, double value);
+void figure_note_y(fm_figure_job *at, double value);
+
+/* Drawn level over all x: x is k, and neither the method nor its workload, n = r k, depends on it.
+ */
 bool figure_is_level(const fm_figure_job *at, const fm_case_row *result);
 /* The distinct x of all measured cases that use x, rising; at least one when anything is measured.
  */

@@ -49,10 +49,10 @@ static bool value_at(fm_point *point, const fm_figure_job *at, const fm_case_row
 
 static void note_point(fm_figure_job *at, const fm_point *point)
 {
-    at->x[at->x_count++] = point->x;
-    at->y[at->y_count++] = point->y;
-    at->y[at->y_count++] = point->low;
-    at->y[at->y_count++] = point->high;
+    figure_note_x(at, point->x);
+    figure_note_y(at, point->y);
+    figure_note_y(at, point->low);
+    figure_note_y(at, point->high);
 }
 
 static void style_series(fm_series *series, const fm_method_info *look)
@@ -142,7 +142,7 @@ static fm_series *add_series(const fm_figure_job *at, fm_figure_job *axes, size_
                              const double *xs, size_t x_count)
 {
     const fm_case_row *one = at->group->cases[first];
-    fm_series *series = chart_add_series(at->chart, at->group->count + x_count);
+    fm_series *series = chart_add_series(at->chart);
     if (series == NULL)
         return NULL;
     style_series(series, &one->look);
@@ -153,14 +153,15 @@ static fm_series *add_series(const fm_figure_job *at, fm_figure_job *axes, size_
             continue;
         bool level = figure_is_level(at, result);
         for (size_t j = 0; result->is_measured && j < (level ? x_count : 1); j++) {
-            fm_point *point = &series->points[series->point_count];
-            if (!value_at(point, at, result, level ? xs[j] : figure_x(at, result)))
+            fm_point point;
+            if (!value_at(&point, at, result, level ? xs[j] : figure_x(at, result)))
                 continue;
-            note_point(axes, point);
-            series->point_count++;
+            chart_add_point(at->chart, series, &point);
+            note_point(axes, &point);
         }
     }
-    qsort(series->points, series->point_count, sizeof *series->points, compare_x);
+    if (series->point_count > 1)
+        qsort(series->points, series->point_count, sizeof *series->points, compare_x);
     if (figure_is_level(at, one) && at->from->ratio_to == NULL)
         level_line(series);
     return series;
@@ -260,7 +261,7 @@ static void add_paper_series(fm_figure_job *at, size_t first)
 {
     const fm_paper_figure *figure = at->figure;
     const fm_paper_point *one = &figure->points[first];
-    fm_series *series = chart_add_series(at->chart, figure->point_count);
+    fm_series *series = chart_add_series(at->chart);
     if (series == NULL)
         return;
     fm_method_info look = paper_look(at, one->method);
@@ -281,7 +282,7 @@ static void add_paper_series(fm_figure_job *at, size_t first)
             point.y /= figure_paper_value(at, at->from->ratio_to, from->x);
         if (!isfinite(point.y))
             continue;
-        series->points[series->point_count++] = point;
+        chart_add_point(at->chart, series, &point);
         note_point(at, &point);
     }
 }
@@ -367,11 +368,11 @@ static void fit_numbers(fm_figure_job *at)
 {
     fm_axis *x = &at->chart->x;
     x->scale = FM_SCALE_LOG;
-    for (size_t i = 0; i < at->x_count; i++)
-        if (at->x[i] <= 0.0)
+    for (size_t i = 0; i < at->x.count; i++)
+        if (at->x.items[i] <= 0.0)
             x->scale = FM_SCALE_LINEAR;
-    axis_fit(x, at->x, at->x_count);
-    axis_tick_values(x, at->x, at->x_count);
+    axis_fit(x, at->x.items, at->x.count);
+    axis_tick_values(x, at->x.items, at->x.count);
 }
 
 /* Ticks without numbers, and the scenes' names below them, in place of a title. */
@@ -399,17 +400,17 @@ fm_status figure_make_lines(fm_figure_job *at, const fm_figure_job *reference, d
     fm_chart *chart = at->chart;
     const size_t x_count = figure_distinct_x(xs, at);
     add_ours(at, xs, x_count);
-    const size_t own_values = at->y_count;
+    const size_t own_values = at->y.count;
     if (figure_has_paper(at))
         add_paper(at);
-    const size_t paper_values = at->y_count;
+    const size_t paper_values = at->y.count;
     add_reference(at, reference, xs, x_count);
     if (own_values == 0)
         return fm_fail(err, FM_UNSUPPORTED, "%s: no case has %s%s%s", at->group->title, at->from->y,
                        at->from->ratio_to == NULL ? "" : " and one of ",
                        at->from->ratio_to == NULL ? "" : at->from->ratio_to);
     chart->y.scale = at->from->is_log ? FM_SCALE_LOG : FM_SCALE_LINEAR;
-    axis_fit(&chart->y, at->y, at->y_count);
+    axis_fit(&chart->y, at->y.items, at->y.count);
     title_axes(at);
     if (figure_is_by_scene(at))
         name_scenes(at);
@@ -419,7 +420,7 @@ fm_status figure_make_lines(fm_figure_job *at, const fm_figure_job *reference, d
     snprintf(chart->notes[note++], sizeof chart->notes[0], "bars: 95 %% intervals");
     if (paper_values > own_values)
         snprintf(chart->notes[note++], sizeof chart->notes[0], "hollow: the paper");
-    if (at->y_count > paper_values)
+    if (at->y.count > paper_values)
         snprintf(chart->notes[note++], sizeof chart->notes[0], "thin: %.50s",
                  reference->group->cases[0]->device_name);
     return FM_OK;

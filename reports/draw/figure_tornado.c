@@ -176,17 +176,17 @@ static void add_bar(fm_chart *chart, const tornado_bar *bar, double nominal, dou
 static void add_block(fm_chart *chart, const tornado_block *block, bool is_first)
 {
     const double top = block->bottom - (double)block->count; /* of the bars */
-    fm_series *line = chart_add_series(chart, 2);
+    fm_series *line = chart_add_series(chart);
     if (line == NULL)
         return;
     line->colour = look_family_colour(FM_FAMILY_CONTROL);
     line->stroke = FM_STROKE_SOLID;
-    line->point_count = 2;
     for (size_t i = 0; i < 2; i++)
-        line->points[i] = (fm_point){ .x = block->nominal,
-                                      .y = from_top(chart, i == 0 ? block->bottom : top),
-                                      .low = NAN,
-                                      .high = NAN };
+        chart_add_point(chart, line,
+                        &(fm_point){ .x = block->nominal,
+                                     .y = from_top(chart, i == 0 ? block->bottom : top),
+                                     .low = NAN,
+                                     .high = NAN });
     if (is_first)
         snprintf(line->label, sizeof line->label, "all at their defaults");
     add_text(chart, -label_gap_px, top - 0.4, FM_ANCHOR_END, 12, block->title);
@@ -197,7 +197,7 @@ static void add_block(fm_chart *chart, const tornado_block *block, bool is_first
 
 static void add_key(fm_chart *chart, int part, const char *text)
 {
-    fm_series *key = chart_add_series(chart, 0);
+    fm_series *key = chart_add_series(chart);
     if (key == NULL)
         return;
     key->colour = look_part_colour((size_t)part);

@@ -48,32 +48,41 @@ static int compare_points(const void *a, const void *b)
 }
 
 /* Stairs: between two points of the frontier the earlier one is the best there is. */
+static void make_stairs(fm_chart *chart, fm_series *series)
+{
+    const size_t count = series->point_count;
+    qsort(series->points, count, sizeof series->points[0], compare_points);
+    for (size_t i = 1; i < count; i++) /* room for a step before each but the first */
+        chart_add_point(chart, series, &(fm_point){ 0 });
+    for (size_t i = count; i-- > 1 && !chart->failed;) {
+        series->points[2 * i] = series->points[i];
+        series->points[2 * i - 1] = series->points[i];
+        series->points[2 * i - 1].y = series->points[i - 1].y;
+    }
+}
+
 static void add_frontier(fm_chart *chart, const fm_group *group, bool *on)
 {
-    fm_series *stairs = chart_add_series(chart, 2 * group->count);
-    if (stairs == NULL)
+    fm_series *series = chart_add_series(chart);
+    if (series == NULL)
         return;
     speed_error_frontier(on, group);
-    size_t count = 0;
     for (size_t i = 0; i < group->count; i++)
         if (on[i])
-            stairs->points[count++] = (fm_point){ .x = error_of(group->cases[i]),
-                                                  .y = group->cases[i]->frame_ms,
-                                                  .low = NAN,
-                                                  .high = NAN };
-    if (count < 2)
+            chart_add_point(chart, series,
+                            &(fm_point){ .x = error_of(group->cases[i]),
+                                         .y = group->cases[i]->frame_ms,
+                                         .low = NAN,
+                                         .high = NAN });
+    if (series->point_count < 2) {
+        series->point_count = 0;
         return;
-    qsort(stairs->points, count, sizeof stairs->points[0], compare_points);
-    for (size_t i = count; i-- > 1;) {
-        stairs->points[2 * i] = stairs->points[i];
-        stairs->points[2 * i - 1] = stairs->points[i];
-        stairs->points[2 * i - 1].y = stairs->points[i - 1].y;
     }
-    stairs->point_count = 2 * count - 1;
-    stairs->colour = frontier_grey;
-    stairs->stroke = FM_STROKE_SOLID;
-    stairs->width_px = 5;
-    snprintf(stairs->label, sizeof stairs->label, "Pareto frontier");
+    make_stairs(chart, series);
+    series->colour = frontier_grey;
+    series->stroke = FM_STROKE_SOLID;
+    series->width_px = 5;
+    snprintf(series->label, sizeof series->label, "Pareto frontier");
 }
 
 static double marker_px(const fm_case_row *result, double bytes_most)
@@ -89,7 +98,7 @@ static void add_method(fm_chart *chart, const fm_group *group, size_t first, boo
                        double bytes_most)
 {
     const fm_case_row *one = group->cases[first];
-    fm_series *series = chart_add_series(chart, group->count);
+    fm_series *series = chart_add_series(chart);
     if (series == NULL)
         return;
     char title[96];
@@ -97,13 +106,14 @@ static void add_method(fm_chart *chart, const fm_group *group, size_t first, boo
     for (size_t i = first; i < group->count && group_same_series(group->cases[i], one); i++) {
         const fm_case_row *result = group->cases[i];
         if (has_point(result) && result->is_ok == is_ok)
-            series->points[series->point_count++] = (fm_point){
-                .x = error_of(result),
-                .y = result->frame_ms,
-                .low = result->frame_ms_low,
-                .high = result->frame_ms_high,
-                .size_px = marker_px(result, bytes_most),
-            };
+            chart_add_point(chart, series,
+                            &(fm_point){
+                                .x = error_of(result),
+                                .y = result->frame_ms,
+                                .low = result->frame_ms_low,
+                                .high = result->frame_ms_high,
+                                .size_px = marker_px(result, bytes_most),
+                            });
     }
     if (series->point_count == 0)
         return;

@@ -17,16 +17,25 @@ static const char *given(const char *text, const char *usual)
     return text != NULL ? text : usual;
 }
 
+/* A cell, empty for 0. */
+static void add_given(fm_text *csv, double number)
+{
+    if (number > 0.0)
+        text_add(csv, "%g", number);
+    text_add(csv, ",");
+}
+
 static void add_summary(fm_text *csv, const fake *row, int index)
 {
     const char *device = given(row->device, "soft"), *status = given(row->status, "ok");
     const bool is_ok = strcmp(status, "ok") == 0;
     const int samples = row->samples == 0 ? 6 : row->samples;
-    text_add(csv, "1,c%d,%s,,%s,1,%s,%s,%s,layers,64,32,16,", index, status, row->method, device,
-             strcmp(device, "soft") == 0 ? "llvmpipe" : "H100", given(row->feed, "raster"));
-    if (row->k > 0.0)
-        text_add(csv, "%g", row->k);
-    text_add(csv, ",,%g,1,1,random,%u,%s,2,", row->pixel_density, row->seed > 0 ? row->seed : 1,
+    text_add(csv, "1,c%d,%s,,%s,1,%s,%s,%s,layers,64,32,%g,", index, status, row->method, device,
+             strcmp(device, "soft") == 0 ? "llvmpipe" : "H100", given(row->feed, "raster"),
+             row->n > 0.0 ? row->n : 16.0);
+    add_given(csv, row->k);
+    add_given(csv, row->r);
+    text_add(csv, "%g,1,1,random,%u,%s,2,", row->pixel_density, row->seed > 0 ? row->seed : 1,
              given(row->options, ""));
     if (!is_ok) {
         text_add(csv, "0,,,,,,,,,,,,,,,,,,,,,,,,,,,,\n");

@@ -30,6 +30,7 @@ typedef struct fake {
     int samples;                                  /* 0: 6 */
     double missing, bytes;
     unsigned seed; /* 0: 1 */
+    double n, r;   /* 0: n is 16, r is empty */
 } fake;
 
 #define ROW(of, keeps, density, time_ms)                                                           \

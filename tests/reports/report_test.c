@@ -341,8 +341,8 @@ static void chart_is_svg_without_ids_that_could_clash(void **state)
     char *svg;
     axis_fit(&chart.x, values, 2);
     axis_fit(&chart.y, values, 2);
-    fm_series *series = chart_add_series(&chart, 1);
-    series->points[series->point_count++] = (fm_point){ 5, 5, 4, 6, 0 };
+    fm_series *series = chart_add_series(&chart);
+    chart_add_point(&chart, series, &(fm_point){ 5, 5, 4, 6, 0 });
     series->has_marker = true;
     assert_int_equal(chart_svg(&svg, &chart, NULL), FM_OK);
     assert_non_null(strstr(svg, "<svg"));
