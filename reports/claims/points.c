@@ -71,6 +71,7 @@ typedef struct points_job {
     size_t room;
 } points_job;
 
+/* A row of `of` gives no point: because of `result`, itself or the one it is compared with. */
 static void note_missing(points_job *job, const fm_case_row *result, const char *why)
 {
     if (job->points->missing_count++ > 0)
@@ -80,13 +81,12 @@ static void note_missing(points_job *job, const fm_case_row *result, const char 
              isnan(result->k) ? " n " : " k ", isnan(result->k) ? result->n : result->k, why);
 }
 
-static bool has_value(points_job *job, const fm_case_row *result, const fm_interval *value)
+/* Why a row has no value. */
+static const char *why_missing(const fm_case_row *result)
 {
-    if (isfinite(value->median))
-        return true;
-    const char *why = result->message[0] != '\0' ? result->message : result->status;
-    note_missing(job, result, result->is_measured ? "no such metric" : why);
-    return false;
+    if (result->is_measured)
+        return "no such metric";
+    return result->message[0] != '\0' ? result->message : result->status;
 }
 
 /* The columns that a selection names itself may differ from `of`. */
@@ -115,26 +115,34 @@ static bool is_taken(const fm_selection *selection, double value, double best)
     return selection->take == FM_TAKE_GREATEST ? value > best : value < best;
 }
 
-/* The row of `selection` for the workload of `of`, and its value; NULL: there is none. */
-static const fm_case_row *find_partner(fm_interval *best, bool *has_few, points_job *job,
-                                       const fm_selection *selection, const fm_case_row *of)
+/* A row to compare with. */
+typedef struct partner {
+    const fm_case_row *result; /* NULL: no row has a value */
+    const fm_case_row *failed; /* the first row that would be one if it had; may be NULL */
+    fm_interval value;
+    bool has_few_samples;
+} partner;
+
+/* The row of `selection` for the workload of `subject`. */
+static partner find_partner(const points_job *job, const fm_selection *selection,
+                            const fm_case_row *subject)
 {
-    const fm_case_row *found = NULL;
+    partner best = { 0 };
     const fm_name_list own = own_columns(selection);
     for (size_t i = 0; i < job->rows->results->count; i++) {
-        const fm_case_row *other = &job->rows->results->cases[i];
+        partner one = { .result = &job->rows->results->cases[i] };
         if (!match_takes(job->claim, job->rows, i) || !match_row(selection, job->rows, i) ||
-            !workload_same(of, other, &own) || !is_own_partner(selection, of, other))
+            !workload_same(subject, one.result, &own) ||
+            !is_own_partner(selection, subject, one.result))
             continue;
-        const fm_interval value = measured_value(has_few, selection, job->rows, other);
-        if (!has_value(job, other, &value))
-            continue;
-        if (found == NULL || is_taken(selection, value.median, best->median)) {
-            *best = value;
-            found = other;
-        }
+        one.value = measured_value(&one.has_few_samples, selection, job->rows, one.result);
+        one.failed = best.failed;
+        if (!isfinite(one.value.median))
+            best.failed = best.failed != NULL ? best.failed : one.result;
+        else if (best.result == NULL || is_taken(selection, one.value.median, best.value.median))
+            best = one;
     }
-    return found;
+    return best;
 }
 
 /* One operand for the point's row; false: there is none. */
@@ -145,10 +153,17 @@ static bool operand(fm_interval *value, fm_claim_point *point, points_job *job,
         *value = formula_value(selection, point->result);
         return isfinite(value->median);
     }
-    point->other = find_partner(value, &point->has_few_samples, job, selection, point->result);
-    if (point->other == NULL)
+    const partner found = find_partner(job, selection, point->result);
+    *value = found.value;
+    point->other = found.result;
+    point->has_few_samples |= found.has_few_samples;
+    if (found.result != NULL)
+        return true;
+    if (found.failed != NULL)
+        note_missing(job, found.failed, why_missing(found.failed));
+    else
         note_missing(job, point->result, "nothing measured to compare it with");
-    return point->other != NULL;
+    return false;
 }
 
 static double x_of(const points_job *job, const fm_case_row *result)
@@ -175,8 +190,10 @@ static bool evaluate(fm_claim_point *point, points_job *job, const fm_selection 
         return is_paired;
     }
     point->value = measured_value(&point->has_few_samples, of, job->rows, point->result);
-    if (!has_value(job, point->result, &point->value))
+    if (!isfinite(point->value.median)) {
+        note_missing(job, point->result, why_missing(point->result));
         return false;
+    }
     if (claim->has_minus) {
         if (!operand(&other, point, job, &claim->minus))
             return false;

@@ -59,12 +59,56 @@ static void an_option_goes_before_a_column_of_its_name(void **state)
     assert_int_equal(other.verdict.kind, FM_VERDICT_FAILS);
 }
 
+/* Two candidates for the least of `over`, one of which crashed: nothing is missing. */
+static void candidates_that_were_not_chosen_are_not_missing(void **state)
+{
+    (void)state;
+    const fakes rows = { { { ROW("a", 4, 0.25, 10) },
+                           { ROW("b", 4, 0.25, 20), .options = "lock=spin", .status = "crash" },
+                           { ROW("b", 4, 0.25, 40), .options = "lock=interlock" } } };
+    const judged made = judge_beside(
+        "at_most: 1\nof: { method: a }\nover: { method: b, take: least }\n", &rows, NULL);
+    assert_int_equal(made.verdict.kind, FM_VERDICT_HOLDS);
+    if (strstr(made.verdict.reason, "left out") != NULL)
+        fail_msg("%s", made.verdict.reason);
+}
+
+/* A partner with few samples that is not the least does not make the interval wider. */
+static void candidates_that_were_not_chosen_do_not_widen(void **state)
+{
+    (void)state;
+    const fakes rows = { { { ROW("a", 4, 0.25, 10), .device = "hard" },
+                           { ROW("b", 4, 0.25, 40), .device = "hard" },
+                           { ROW("b", 4, 0.25, 90), .device = "hard", .options = "lock=spin",
+                             .samples = 1 } } };
+    const judged made = judge_beside(
+        "at_most: 1\nof: { method: a }\nover: { method: b, take: least }\n", &rows, NULL);
+    if (strstr(made.verdict.reason, "fewer than 5") != NULL)
+        fail_msg("%s", made.verdict.reason);
+}
+
+/* One row of `of` without a partner is one row left out, however many candidates failed. */
+static void a_point_without_a_partner_is_missing_once(void **state)
+{
+    (void)state;
+    const fakes rows = { { { ROW("a", 4, 0.25, 10) },
+                           { ROW("b", 4, 0.25, 20), .options = "lock=spin", .status = "crash" },
+                           { ROW("b", 4, 0.25, 40), .options = "lock=hash", .status = "crash" } } };
+    const judged made =
+        judge_beside("at_most: 1\nof: { method: a }\nover: { method: b }\n", &rows, NULL);
+    assert_int_equal(made.verdict.kind, FM_VERDICT_NOT_TESTABLE);
+    assert_string_equal(made.verdict.reason, "1 case without a result (B k 4: crash)");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(unclear_verdicts_say_why),
         cmocka_unit_test(decided_verdicts_are_not_called_unclear),
         cmocka_unit_test(an_option_goes_before_a_column_of_its_name),
+        cmocka_unit_test(candidates_that_were_not_chosen_are_not_missing),
+        cmocka_unit_test(candidates_that_were_not_chosen_do_not_widen),
+        cmocka_unit_test(a_point_without_a_partner_is_missing_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
