@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "read/options.h"
 
 /* ---- tests ---- */
 
@@ -35,28 +36,14 @@ static bool test_matches(const fm_claim_test *test, const char *cell)
     return false;
 }
 
-/* The value of key in "key=value key=value"; "" when it is not there. */
-void match_option(char value[128], const char *options, const char *key)
-{
-    const size_t length = strlen(key);
-    value[0] = '\0';
-    while (*options != '\0') {
-        const size_t pair = strcspn(options, " ");
-        if (pair > length && options[length] == '=' && strncmp(options, key, length) == 0)
-            snprintf(value, 128, "%.*s", (int)(pair - length - 1), options + length + 1);
-        options += pair;
-        options += strspn(options, " ");
-    }
-}
-
 bool match_row(const fm_selection *selection, const fm_claim_rows *rows, size_t row)
 {
     const fm_table *table = rows->results->summary;
     for (size_t i = 0; i < selection->test_count; i++) {
-        char option[128];
+        char option[FM_OPTION_VALUE_BYTES];
         const char *cell = option;
         const size_t column = table_column(table, selection->tests[i].key);
-        match_option(option, rows->results->cases[row].options, selection->tests[i].key);
+        options_value(option, rows->results->cases[row].options, selection->tests[i].key);
         if (option[0] == '\0' && column != FM_TABLE_NO_COLUMN)
             cell = table_cell(table, row, column);
         if (!test_matches(&selection->tests[i], cell))

@@ -10,7 +10,5 @@ bool match_row(const fm_selection *selection, const fm_claim_rows *rows, size_t 
 bool match_memory_row(const fm_selection *selection, const fm_claim_rows *rows, size_t row);
 /* The row belongs to the figure and its device can say something about the claim. */
 bool match_takes(const fm_claim *claim, const fm_claim_rows *rows, size_t row);
-/* The value of key in "key=value key=value"; "" when it is not there. */
-void match_option(char value[128], const char *options, const char *key);
 
 #endif

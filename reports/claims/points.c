@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "match.h"
 #include "read/group.h"
+#include "read/options.h"
 #include "read/workload.h"
 
 enum { SAMPLES_WANTED = 5 };
@@ -106,7 +107,8 @@ static bool is_own_partner(const fm_selection *selection, const fm_case_row *of,
     const fm_name_list own = own_columns(selection);
     if (!name_list_names(&own, "method") && strcmp(of->method, other->method) != 0)
         return false;
-    return name_list_names(&own, "method") || group_same_own_options(of, other, &own);
+    return name_list_names(&own, "method") ||
+           options_are_same(of->options, other->options, FM_OPTIONS_OWN, &own);
 }
 
 /* Of several partners the greatest where the selection says so, else the least. */
@@ -168,12 +170,12 @@ static bool operand(fm_interval *value, fm_claim_point *point, points_job *job,
 
 static double x_of(const points_job *job, const fm_case_row *result)
 {
-    char option[128];
+    char option[FM_OPTION_VALUE_BYTES];
     double x = NAN;
     if (job->claim->along[0] == '\0')
         return NAN;
     x = result_files_metric(job->rows->results, result, job->claim->along);
-    match_option(option, result->options, job->claim->along);
+    options_value(option, result->options, job->claim->along);
     if (isnan(x) && !text_to_double(&x, option))
         x = NAN;
     return x;
@@ -326,7 +328,7 @@ bool claim_point_same_series(const fm_claim *claim, const fm_claim_point *a,
     const fm_name_list list = free_columns_of(claim);
     return a->result == NULL || claim->of[a->selection].take != FM_TAKE_EACH ||
            (strcmp(a->result->method, b->result->method) == 0 &&
-            group_same_own_options(a->result, b->result, &list));
+            options_are_same(a->result->options, b->result->options, FM_OPTIONS_OWN, &list));
 }
 
 /* Brings the points of each series together, x rising: an insertion sort, which the few points of

@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "claims/match.h"
 #include "figure_job.h"
+#include "read/options.h"
 #include "read/workload.h"
 
 static const double plot_width_px = 560, plot_height_px = 380;
@@ -89,14 +89,14 @@ size_t figure_add_upright(fm_chart *chart, double x_px, const char *text)
 /* Scenes are numbered as the figure lists them; an option's value may be an x too. */
 double figure_x(const fm_figure_job *at, const fm_case_row *result)
 {
-    char option[128];
+    char option[FM_OPTION_VALUE_BYTES];
     for (size_t i = 0; figure_is_by_scene(at) && i < at->figure->scenes.count; i++)
         if (strcmp(at->figure->scenes.names[i], result->scene) == 0)
             return (double)(i + 1);
     if (strcmp(at->from->x, "k") == 0 && isnan(result->k))
         return k_of_workload(result);
     double x = result_files_metric(at->results, result, at->from->x);
-    match_option(option, result->options, at->from->x);
+    options_value(option, result->options, at->from->x);
     if (isnan(x) && !text_to_double(&x, option))
         x = NAN;
     return x;

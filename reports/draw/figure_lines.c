@@ -8,6 +8,7 @@
 
 #include "base/text.h"
 #include "read/interval.h"
+#include "read/options.h"
 
 fm_interval figure_y(const fm_figure_job *at, const fm_case_row *result)
 {
@@ -111,7 +112,7 @@ bool figure_is_same_series(const fm_figure_job *at, size_t a, size_t b)
     const bool same_k = one->k == other->k || (isnan(one->k) && isnan(other->k));
     return strcmp(one->method, other->method) == 0 &&
            (same_k || name_list_names(&free_columns, "k")) &&
-           group_same_own_options(one, other, &free_columns);
+           options_are_same(one->options, other->options, FM_OPTIONS_OWN, &free_columns);
 }
 
 bool figure_starts_series(const fm_figure_job *at, size_t i)

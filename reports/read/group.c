@@ -6,60 +6,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "model/settings.h"
+#include "options.h"
 #include "workload.h"
-
-/* "options" also holds keys of the scene that have no column: they belong to the workload. Copies
- * the pairs of one sort, but for those named in `without`, which may be NULL. */
-static void select_options(char chosen[256], const char *options, bool of_scene,
-                           const fm_name_list *without)
-{
-    size_t used = 0;
-    chosen[0] = '\0';
-    while (*options != '\0') {
-        char name[64];
-        size_t length = strcspn(options, " ");
-        snprintf(name, sizeof name, "%.*s", (int)strcspn(options, "= "), options);
-        const fm_key *key = key_find(name);
-        bool is_scene = key != NULL && key->scope == FM_SCOPE_SCENE;
-        const bool is_left_out = without != NULL && name_list_names(without, name);
-        if (is_scene == of_scene && !is_left_out && used + length + 2 < 256)
-            used += (size_t)snprintf(chosen + used, 256 - used, "%s%.*s", used > 0 ? " " : "",
-                                     (int)length, options);
-        options += length;
-        options += strspn(options, " ");
-    }
-}
-
-static bool same_options(const fm_case_row *a, const fm_case_row *b, bool of_scene,
-                         const fm_name_list *without)
-{
-    char of_a[256], of_b[256];
-    select_options(of_a, a->options, of_scene, without);
-    select_options(of_b, b->options, of_scene, without);
-    return strcmp(of_a, of_b) == 0;
-}
-
-bool group_same_scene_options(const fm_case_row *a, const fm_case_row *b,
-                              const fm_name_list *without)
-{
-    return same_options(a, b, true, without);
-}
-
-bool group_same_own_options(const fm_case_row *a, const fm_case_row *b, const fm_name_list *without)
-{
-    return same_options(a, b, false, without);
-}
 
 bool group_same_series(const fm_case_row *a, const fm_case_row *b)
 {
-    return strcmp(a->method, b->method) == 0 && same_options(a, b, false, NULL);
+    return strcmp(a->method, b->method) == 0 &&
+           options_are_same(a->options, b->options, FM_OPTIONS_OWN, NULL);
 }
 
 void group_series_title(char title[96], const fm_case_row *result, const fm_name_list *without)
 {
-    char options[256];
-    select_options(options, result->options, false, without);
+    char options[FM_OPTIONS_TEXT_BYTES];
+    options_select(options, result->options, FM_OPTIONS_OWN, without);
     if (options[0] == '\0')
         snprintf(title, 96, "%.95s", result->look.title);
     else
@@ -147,8 +106,8 @@ static void describe(fm_group *group, const fm_name_list *free_columns)
     size_t used = strlen(group->workload);
     if (one->order[0] != '\0')
         snprintf(group->workload + used, room - used, ", order %s", one->order);
-    char options[256];
-    select_options(options, one->options, true, NULL);
+    char options[FM_OPTIONS_TEXT_BYTES];
+    options_select(options, one->options, FM_OPTIONS_OF_SCENE, NULL);
     used = strlen(group->workload);
     if (options[0] != '\0')
         snprintf(group->workload + used, room - used, ", %s", options);

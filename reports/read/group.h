@@ -37,11 +37,6 @@ void group_series_title(char title[96], const fm_case_row *result, const fm_name
 bool group_is_stand_in(const char *scene);
 /* Same method, version and options: points of one line. */
 bool group_same_series(const fm_case_row *a, const fm_case_row *b);
-/* Equal in the options that belong to the scene, or to the method, but for those of `without`. */
-bool group_same_scene_options(const fm_case_row *a, const fm_case_row *b,
-                              const fm_name_list *without);
-bool group_same_own_options(const fm_case_row *a, const fm_case_row *b,
-                            const fm_name_list *without);
 /* Whether k matters: the method has several k, or the group has only one. */
 bool group_uses_k(const fm_group *group, const fm_case_row *result);
 

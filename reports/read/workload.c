@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "group.h"
+#include "options.h"
 
 /* `k` and `n` are empty where a method does not use them. */
 static const struct {
@@ -71,7 +71,7 @@ bool workload_same(const fm_case_row *a, const fm_case_row *b, const fm_name_lis
         if (!is_free(free_columns, workload_columns[i].name, a) && !same_column(a, b, i))
             return false;
     return (name_list_names(free_columns, "device") || same_device(a, b)) &&
-           group_same_scene_options(a, b, free_columns);
+           options_are_same(a->options, b->options, FM_OPTIONS_OF_SCENE, free_columns);
 }
 
 void workload_name(char *name, size_t room, const fm_result_files *results, const bool *takes,
