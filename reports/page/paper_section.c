@@ -5,7 +5,7 @@
 
 #include "draw/figure_charts.h"
 #include "html.h"
-#include "read/memory_rows.h"
+#include "memory_rows.h"
 #include "verdict_table.h"
 
 static const struct {

@@ -8,13 +8,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "case_table.h"
 #include "draw/chart.h"
 #include "draw/pictures.h"
 #include "draw/speed_error.h"
 #include "html.h"
 #include "page.h"
 #include "paper_section.h"
-#include "read/case_table.h"
 #include "read/group.h"
 #include "writer.h"
 

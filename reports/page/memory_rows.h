@@ -3,7 +3,7 @@
 #define FM_MEMORY_ROWS_H
 
 #include "base/text.h"
-#include "table.h"
+#include "read/table.h"
 
 /* The rows of memory.csv that belong to the figure; nothing where it has none, or memory is NULL.
  */

@@ -3,7 +3,7 @@
 #define FM_CASE_TABLE_H
 
 #include "base/text.h"
-#include "group.h"
+#include "read/group.h"
 
 void case_table_add(fm_text *page, const fm_group *group);
 

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "draw/speed_error.h"
-#include "page/html.h"
+#include "html.h"
 
 static const struct {
     const char *title, *help;

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "page/html.h"
+#include "html.h"
 
 /* Columns of memory.csv as people read them. */
 static const struct {
