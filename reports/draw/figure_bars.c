@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "read/family.h"
+
 /* stacked-bars: a cluster for each x, and one for the cases that do not use it. */
 typedef struct bar_place {
     double slot;                  /* of the next bar, in slots from the left */
@@ -182,7 +184,7 @@ static void finish_groups(fm_figure_job *at, const bar_place *place)
             continue;
         key->colour = colour;
         key->swatch = true;
-        snprintf(key->label, sizeof key->label, "%s", look_family_name((fm_family)family));
+        snprintf(key->label, sizeof key->label, "%s", family_name((fm_family)family));
     }
 }
 

@@ -23,11 +23,6 @@ fm_colour look_shade(fm_colour colour, size_t variant);
 fm_colour look_part_colour(size_t part);
 enum { FM_LOOK_PARTS = 8 };
 
-/* Names as manifest.json writes them: "k-plus-buffer", "square". Unknown: control, circle. */
-fm_family look_family(const char *name);
-fm_marker look_marker(const char *name);
-const char *look_family_name(fm_family family);
-
 #ifdef __cplusplus
 }
 #endif

@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "draw/look.h"
 #include "html.h"
+#include "read/family.h"
 #include "read/group.h"
 
 static const char page_css[] = {
@@ -223,7 +223,7 @@ static void add_methods(fm_text *page, const fm_provenance *manifest)
     for (size_t i = 0; i < manifest->method_count; i++) {
         const fm_method_info *method = &manifest->methods[i];
         const char *const cells[] = { method->title, method->id, method->version,
-                                      look_family_name(method->family), method->citation };
+                                      family_name(method->family), method->citation };
         add_row(page, cells, sizeof cells / sizeof cells[0]);
     }
     text_add(page, "</tbody></table></div>\n");

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "draw/look.h"
+#include "family.h"
 
 enum { MANIFEST_BYTES = 16 << 20 };
 
@@ -35,8 +35,8 @@ static void read_method(fm_method_info *info, const char *id, const json_t *meth
         .title = field(method, "title"),
         .citation = field(method, "citation"),
         .version = field(method, "version"),
-        .family = look_family(field(method, "family")),
-        .marker = look_marker(field(method, "marker")),
+        .family = family_parse(field(method, "family")),
+        .marker = marker_parse(field(method, "marker")),
         .is_dashed = json_is_true(json_object_get(method, "dashed")),
         .is_racy = has_trait(method, "racy"),
         .is_exact = has_trait(method, "exact"),
