@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/text.h"
 #include "match.h"
 #include "read/group.h"
 #include "read/options.h"
@@ -170,15 +169,9 @@ static bool operand(fm_interval *value, fm_claim_point *point, points_job *job,
 
 static double x_of(const points_job *job, const fm_case_row *result)
 {
-    char option[FM_OPTION_VALUE_BYTES];
-    double x = NAN;
     if (job->claim->along[0] == '\0')
         return NAN;
-    x = result_files_metric(job->rows->results, result, job->claim->along);
-    options_value(option, result->options, job->claim->along);
-    if (isnan(x) && !text_to_double(&x, option))
-        x = NAN;
-    return x;
+    return result_files_place(job->rows->results, result, job->claim->along);
 }
 
 static bool evaluate(fm_claim_point *point, points_job *job, const fm_selection *of)

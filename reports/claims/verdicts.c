@@ -7,7 +7,7 @@
 
 #include "base/csv.h"
 #include "base/text.h"
-#include "draw/figure_charts.h"
+#include "read/figure_cases.h"
 
 enum { DEVICES_MOST = 16 };
 

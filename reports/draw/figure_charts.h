@@ -2,20 +2,7 @@
 #ifndef FM_FIGURE_CHARTS_H
 #define FM_FIGURE_CHARTS_H
 
-#include "chart.h"
-#include "paper_figure.h"
-#include "read/group.h"
-
-/* The cases of a run that belong to a figure: by figures.csv, or where there is none by the
- * methods, scenes and feeds of its `run`. */
-typedef struct fm_figure_cases {
-    const fm_paper_figure *figure;
-    bool is_listed;
-    uint64_t bit;
-} fm_figure_cases;
-fm_figure_cases figure_cases(const fm_result_files *results, const fm_paper_figure *figure);
-/* Context: an fm_figure_cases. */
-bool figure_takes_case(const fm_case_row *result, const void *cases);
+#include "figure_values.h"
 
 /* The cases of one chart: of a run, and of another machine's to compare with. */
 typedef struct fm_figure_source {
@@ -23,8 +10,6 @@ typedef struct fm_figure_source {
     const fm_group *group; /* NULL: none */
 } fm_figure_source;
 
-/* The columns in which cases of one chart differ: its x, and what changes with it. */
-fm_name_list figure_free_columns(const fm_figure_chart *chart);
 /* The group of the reference with the workload of a group, whatever the device and the size of the
  * viewport; NULL: there is none. */
 const fm_group *figure_reference_group(const fm_groups *reference, const fm_group *group,

@@ -1,10 +1,11 @@
-/* Kind `tornado`: how far each swept parameter moves a method's ratio, a block of bars a method. */
-#include "figure_job.h"
+#include "figure_tornado.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "figure_labels.h"
 
 /* Colours of the parts of a bar, beyond those that stacks use first. */
 enum { LOW_PART = 6, HIGH_PART = 7, VALUE_PX = 9 };
@@ -27,19 +28,19 @@ typedef struct tornado_block {
 
 /* The mean of a metric over that of ratio_to, of the cases of the series that starts at `first`;
  * NAN: none has both. */
-static double mean_ratio(const fm_figure_job *at, size_t first, const char *metric)
+static double mean_ratio(const fm_figure_job *job, size_t first, const char *metric)
 {
     double sum = 0.0;
     size_t count = 0;
-    for (size_t i = first; i < at->group->count; i++) {
-        const fm_case_row *result = at->group->cases[i];
-        if (!figure_is_same_series(at, first, i) || !result->is_measured)
+    for (size_t i = first; i < job->group->count; i++) {
+        const fm_case_row *result = job->group->cases[i];
+        if (!figure_is_same_series(job, first, i) || !result->is_measured)
             continue;
-        const fm_case_row *base = figure_base_at(at, figure_x(at, result));
+        const fm_case_row *base = figure_base_at(job, figure_x(job, result));
         if (base == NULL)
             continue;
-        const double ratio = result_files_metric(at->results, result, metric) /
-                             result_files_metric(at->results, base, metric);
+        const double ratio = result_files_metric(job->results, result, metric) /
+                             result_files_metric(job->results, base, metric);
         sum += isfinite(ratio) ? ratio : 0.0;
         count += isfinite(ratio);
     }
@@ -61,31 +62,31 @@ static double bar_length(const tornado_bar *bar, double nominal)
 }
 
 /* false: there is nothing of this method to draw. */
-static bool fill_block(tornado_block *block, const fm_figure_job *at, size_t first)
+static bool fill_block(tornado_block *block, const fm_figure_job *job, size_t first)
 {
-    const fm_name_list free_columns = figure_free_columns(at->from);
-    *block = (tornado_block){ .nominal = mean_ratio(at, first, at->from->y) };
-    for (size_t i = 0; i < at->from->swept_count && isfinite(block->nominal); i++) {
-        const fm_figure_swept *swept = &at->from->sweep[i];
+    const fm_name_list free_columns = figure_free_columns(job->from);
+    *block = (tornado_block){ .nominal = mean_ratio(job, first, job->from->y) };
+    for (size_t i = 0; i < job->from->swept_count && isfinite(block->nominal); i++) {
+        const fm_figure_swept *swept = &job->from->sweep[i];
         tornado_bar *bar = &block->bars[block->count];
         *bar = (tornado_bar){ .name = swept->name,
-                              .low = mean_ratio(at, first, swept->low),
-                              .high = mean_ratio(at, first, swept->high) };
+                              .low = mean_ratio(job, first, swept->low),
+                              .high = mean_ratio(job, first, swept->high) };
         bar->length = bar_length(bar, block->nominal);
         block->count += isfinite(bar->low) && isfinite(bar->high);
     }
     qsort(block->bars, block->count, sizeof block->bars[0], compare_bars);
-    group_series_title(block->title, at->group->cases[first], &free_columns);
+    group_series_title(block->title, job->group->cases[first], &free_columns);
     return block->count > 0;
 }
 
-static size_t fill_blocks(tornado_block *blocks, fm_figure_job *at)
+static size_t fill_blocks(tornado_block *blocks, fm_figure_job *job)
 {
     size_t count = 0;
     double row = 0.0;
-    for (size_t i = 0; i < at->group->count; i++) {
-        if (strcmp(at->group->cases[i]->method, at->from->ratio_to) == 0 ||
-            !figure_starts_series(at, i) || !fill_block(&blocks[count], at, i))
+    for (size_t i = 0; i < job->group->count; i++) {
+        if (strcmp(job->group->cases[i]->method, job->from->ratio_to) == 0 ||
+            !figure_starts_series(job, i) || !fill_block(&blocks[count], job, i))
             continue;
         row += (double)blocks[count].count + 1.0; /* its title, and its bars */
         blocks[count++].bottom = row;
@@ -93,7 +94,7 @@ static size_t fill_blocks(tornado_block *blocks, fm_figure_job *at)
     return count;
 }
 
-static void fit_axes(fm_figure_job *at, const tornado_block *blocks, size_t count)
+static void fit_axes(fm_figure_job *job, const tornado_block *blocks, size_t count)
 {
     double values[FM_FIGURE_SWEPT * 2 + 1], ends[2] = { INFINITY, -INFINITY };
     char ratio[128];
@@ -109,13 +110,13 @@ static void fit_axes(fm_figure_job *at, const tornado_block *blocks, size_t coun
             ends[1] = fmax(ends[1], values[k]);
         }
     }
-    axis_fit_near(&at->chart->x, ends, 2);
-    figure_title_ratio(ratio, at);
-    snprintf(at->chart->x.title, sizeof at->chart->x.title, "%.90s, mean of all %s", ratio,
-             figure_is_by_scene(at) ? "scenes" : at->from->x);
-    at->chart->y.low = 0.0;
-    at->chart->y.high = blocks[count - 1].bottom + 0.5;
-    at->chart->y.length_px = at->chart->y.high * row_px;
+    axis_fit_near(&job->chart->x, ends, 2);
+    figure_title_ratio(ratio, job);
+    snprintf(job->chart->x.title, sizeof job->chart->x.title, "%.90s, mean of all %s", ratio,
+             figure_is_by_scene(job) ? "scenes" : job->from->x);
+    job->chart->y.low = 0.0;
+    job->chart->y.high = blocks[count - 1].bottom + 0.5;
+    job->chart->y.length_px = job->chart->y.high * row_px;
 }
 
 /* Rows from the top, as a value of the axis. */
@@ -205,26 +206,26 @@ static void add_key(fm_chart *chart, int part, const char *text)
     snprintf(key->label, sizeof key->label, "%s", text);
 }
 
-fm_status figure_make_tornado(fm_figure_job *at, fm_error *err)
+fm_status figure_make_tornado(fm_figure_job *job, fm_error *err)
 {
-    tornado_block *blocks = calloc(at->group->count + 1, sizeof *blocks);
+    tornado_block *blocks = calloc(job->group->count + 1, sizeof *blocks);
     if (blocks == NULL)
-        return fm_fail(err, FM_NO_MEMORY, "%s: tornado", at->group->title);
-    const size_t count = fill_blocks(blocks, at);
+        return fm_fail(err, FM_NO_MEMORY, "%s: tornado", job->group->title);
+    const size_t count = fill_blocks(blocks, job);
     if (count == 0) {
         free(blocks);
         return fm_fail(err, FM_UNSUPPORTED,
-                       "%s: no case has %s, what it is swept to, and one of %s", at->group->title,
-                       at->from->y, at->from->ratio_to);
+                       "%s: no case has %s, what it is swept to, and one of %s", job->group->title,
+                       job->from->y, job->from->ratio_to);
     }
-    fit_axes(at, blocks, count);
+    fit_axes(job, blocks, count);
     for (size_t i = 0; i < count; i++)
-        add_block(at->chart, &blocks[i], i == 0);
-    add_key(at->chart, LOW_PART, "at its lowest");
-    add_key(at->chart, HIGH_PART, "at its highest");
-    if (blocks[0].count < at->from->swept_count)
-        snprintf(at->chart->notes[0], sizeof at->chart->notes[0], "parameters without values: %zu",
-                 at->from->swept_count - blocks[0].count);
+        add_block(job->chart, &blocks[i], i == 0);
+    add_key(job->chart, LOW_PART, "at its lowest");
+    add_key(job->chart, HIGH_PART, "at its highest");
+    if (blocks[0].count < job->from->swept_count)
+        snprintf(job->chart->notes[0], sizeof job->chart->notes[0],
+                 "parameters without values: %zu", job->from->swept_count - blocks[0].count);
     free(blocks);
     return FM_OK;
 }

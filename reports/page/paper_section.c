@@ -6,6 +6,7 @@
 #include "draw/figure_charts.h"
 #include "html.h"
 #include "memory_rows.h"
+#include "read/figure_cases.h"
 #include "verdict_table.h"
 
 static const struct {

@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/text.h"
+#include "options.h"
 #include "result_files.h"
 
 /* What papers plot instead of times. */
@@ -79,6 +81,17 @@ double result_files_metric(const fm_result_files *results, const fm_case_row *re
     if (result_files_number(&value, result, name))
         return value;
     return sample_median(results, (size_t)(result - results->cases), name);
+}
+
+double result_files_place(const fm_result_files *results, const fm_case_row *result,
+                          const char *name)
+{
+    char option[FM_OPTION_VALUE_BYTES];
+    double value = result_files_metric(results, result, name);
+    options_value(option, result->options, name);
+    if (isnan(value) && !text_to_double(&value, option))
+        return NAN;
+    return value;
 }
 
 /* One metric of each frame of a case, summed with others. */

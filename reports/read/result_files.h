@@ -73,6 +73,11 @@ bool result_files_number(double *value, const fm_case_row *result, const char *n
 double result_files_metric(const fm_result_files *results, const fm_case_row *result,
                            const char *name);
 
+/* Where a case stands on an axis of that name: the metric, else its option as a number, else NAN.
+ */
+double result_files_place(const fm_result_files *results, const fm_case_row *result,
+                          const char *name);
+
 /* The sum of metrics of a case, each as above, with its 95 % interval where they have samples by
  * frame; parts that the case does not have count as 0. All NAN: it has none of them. sample_count:
  * how many frames the interval is made of; 0: the value stands for the case as a whole. */

@@ -4,6 +4,7 @@
 
 #include "claims_kit.h"
 #include "draw/figure_charts.h"
+#include "read/figure_cases.h"
 #include "read/group.h"
 
 /* A directory with results and the figure f-1, both read. */
