@@ -2,7 +2,7 @@
 #ifndef FM_CLAIM_POINTS_H
 #define FM_CLAIM_POINTS_H
 
-#include "claim.h"
+#include "read/claim.h"
 #include "read/interval.h"
 #include "read/result_files.h"
 

@@ -2,8 +2,8 @@
 #ifndef FM_CLAIM_VERDICTS_H
 #define FM_CLAIM_VERDICTS_H
 
-#include "draw/paper_figure.h"
 #include "forms.h"
+#include "read/paper_figure.h"
 
 typedef struct fm_claim_result {
     const fm_paper_figure *figure;

@@ -4,9 +4,9 @@
 #define FM_FIGURE_VALUES_H
 
 #include "chart.h"
-#include "paper_figure.h"
 #include "read/group.h"
 #include "read/interval.h"
+#include "read/paper_figure.h"
 
 /* A growing list of numbers. Starts as {0}. */
 typedef struct fm_numbers {

@@ -3,8 +3,8 @@
 #define FM_PAGE_H
 
 #include "base/text.h"
-#include "draw/yaml_fields.h"
 #include "read/result_files.h"
+#include "read/yaml_fields.h"
 
 /* From <!doctype> to the title, what, where and when. */
 void page_begin(fm_text *page, const fm_result_files *results);

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "claims/verdicts.h"
-#include "draw/paper_figure.h"
+#include "read/paper_figure.h"
 #include "read/result_files.h"
 
 typedef struct fm_report_desc {

@@ -2,7 +2,7 @@
 #ifndef FM_READ_FIGURE_CASES_H
 #define FM_READ_FIGURE_CASES_H
 
-#include "draw/paper_figure.h"
+#include "paper_figure.h"
 #include "result_files.h"
 
 /* The cases that figures.csv lists for the figure; where the run has no figures.csv, those of the

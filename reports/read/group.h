@@ -2,8 +2,8 @@
 #ifndef FM_GROUP_H
 #define FM_GROUP_H
 
-#include "draw/yaml_fields.h"
 #include "result_files.h"
+#include "yaml_fields.h"
 
 typedef struct fm_group {
     const fm_case_row **cases; /* by family, method, options, k; controls last; owned */

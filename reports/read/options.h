@@ -5,7 +5,7 @@
 
 #include <stdbool.h>
 
-#include "draw/yaml_fields.h"
+#include "yaml_fields.h"
 
 enum { FM_OPTIONS_TEXT_BYTES = 256, FM_OPTION_VALUE_BYTES = 128 };
 

@@ -2,8 +2,8 @@
 #ifndef FM_WORKLOAD_H
 #define FM_WORKLOAD_H
 
-#include "draw/yaml_fields.h"
 #include "result_files.h"
+#include "yaml_fields.h"
 
 /* Same scene, size, fragments, device and feed, but for the free columns. */
 bool workload_same(const fm_case_row *a, const fm_case_row *b, const fm_name_list *free_columns);

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "claims_kit.h"
-#include "draw/paper_figure.h"
+#include "read/paper_figure.h"
 #include "read/table.h"
 
 enum { FIGURES_MAX = 64, FAMILIES = 4, CLAIMS_MAX = 26 };

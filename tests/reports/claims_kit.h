@@ -17,7 +17,7 @@
 #include "base/image.h"
 #include "base/text.h"
 #include "claims/verdicts.h"
-#include "draw/paper_figure.h"
+#include "read/paper_figure.h"
 #include "read/result_files.h"
 #include "read/table.h"
 

@@ -19,10 +19,10 @@
 #include "draw/axis.h"
 #include "draw/chart.h"
 #include "draw/figure_charts.h"
-#include "draw/paper_figure.h"
 #include "draw/speed_error.h"
 #include "page/report.h"
 #include "read/group.h"
+#include "read/paper_figure.h"
 #include "read/result_files.h"
 #include "read/table.h"
 

@@ -41,7 +41,7 @@
  *         title: Array         as the paper's legend has it
  *         at: { n: 16 }        of which workload, where the figure has several
  *         points: [[4, 3.9, 0.2], ...]   x, then one value a part
- *   claims: ...                see claims/claim.h
+ *   claims: ...                see claim.h
  *   deviations: [sentences]
  *   table: ...                 memory by formula, see memory_table.h; charts may be missing
  *
@@ -52,7 +52,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "claims/claim.h"
+#include "claim.h"
 
 enum {
     FM_FIGURE_CHARTS = 8,

@@ -58,7 +58,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "draw/yaml_fields.h"
+#include "yaml_fields.h"
 
 enum { FM_CLAIM_TESTS = 16, FM_CLAIM_SELECTIONS = 12, FM_CLAIMS = 64 };
 
