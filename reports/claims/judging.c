@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "bounds.h"
+
 void judging_begin(judging *to)
 {
     to->worst = (decision){ .kind = FM_VERDICT_NOT_TESTABLE, .measured = { NAN, NAN, NAN } };
@@ -36,6 +38,35 @@ void judging_decide(judging *to, const decision *made)
     to->least = fmin(to->least, made->measured.median);
     to->greatest = fmax(to->greatest, made->measured.median);
     to->count++;
+}
+
+void judging_value(judging *to, fm_interval value, const fm_claim_point *a, const fm_claim_point *b)
+{
+    const decision made = { bounds_judge(to->claim, value), value,
+                            bounds_margin(to->claim, value.median), a, b };
+    judging_decide(to, &made);
+}
+
+void judging_rise(judging *to, const fm_claim_point *point, const fm_claim_point *next,
+                  double least)
+{
+    const fm_interval rise = interval_difference(next->value, point->value);
+    decision made = { .measured = interval_ratio(next->value, point->value),
+                      .a = point,
+                      .b = next };
+    if (point->value.median == 0.0)
+        made.measured = next->value; /* a ratio to nothing says nothing */
+    made.margin = rise.median / fmax(fabs(point->value.median), 1e-12);
+    if (rise.low >= least)
+        made.kind = FM_VERDICT_HOLDS;
+    else
+        made.kind = rise.high < least ? FM_VERDICT_FAILS : FM_VERDICT_UNCLEAR;
+    judging_decide(to, &made);
+}
+
+void judging_step(judging *to, const fm_claim_point *point, const fm_claim_point *next)
+{
+    judging_rise(to, point, next, -to->claim->tolerance * fabs(point->value.median));
 }
 
 void judging_note(judging *to, const char *format, ...)

@@ -2,7 +2,8 @@
 #ifndef FM_CLAIM_JUDGING_H
 #define FM_CLAIM_JUDGING_H
 
-#include "forms.h"
+#include "points.h"
+#include "verdict.h"
 
 typedef struct decision {
     fm_verdict_kind kind;
@@ -23,6 +24,14 @@ typedef struct judging {
 
 void judging_begin(judging *to);
 void judging_decide(judging *to, const decision *made);
+/* Decides by where the value lies between the claim's bounds. */
+void judging_value(judging *to, fm_interval value, const fm_claim_point *a,
+                   const fm_claim_point *b);
+/* Decides whether `next` lies above `point` by `least`. */
+void judging_rise(judging *to, const fm_claim_point *point, const fm_claim_point *next,
+                  double least);
+/* Decides whether `next` lies below `point` by the tolerance at most. */
+void judging_step(judging *to, const fm_claim_point *point, const fm_claim_point *next);
 void judging_note(judging *to, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* The verdict, and its reason in words. */
 void judging_end(fm_verdict *verdict, const judging *to);
