@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "curves.h"
-#include "draw/pictures.h"
+#include "read/picture.h"
 
 static fm_status judge_bound(judging *to, fm_error *err)
 {
@@ -117,8 +117,8 @@ static fm_status judge_images(judging *to, fm_error *err)
     for (size_t i = 0; i < to->points->count; i++) {
         const fm_claim_point *point = &to->points->points[i];
         double apart;
-        const fm_status status = pictures_compare(&apart, to->rows->results->directory,
-                                                  point->result->id, point->other->id, err);
+        const fm_status status = picture_compare(&apart, to->rows->results->directory,
+                                                 point->result->id, point->other->id, err);
         if (status == FM_UNSUPPORTED) {
             judging_note(to, "a picture was not kept");
             continue;

@@ -3,10 +3,9 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <unistd.h>
 
-#include "base/image.h"
 #include "image_file.h"
+#include "read/picture.h"
 
 enum { SCALE_WIDTH_PX = 256, SCALE_HEIGHT_PX = 12 };
 
@@ -40,15 +39,19 @@ static fm_status write_png(const char *path, const fm_image *image, fm_error *er
     return status;
 }
 
-/* PNG and EXR of one picture under images/STEM. */
+/* images/ID KIND.exr and .png. */
 static fm_status write_picture(const char *directory, const char *id, const char *kind,
                                const fm_image *image, fm_error *err)
 {
-    char path[1280];
-    snprintf(path, sizeof path, "%s/images/%s%s.exr", directory, id, kind);
-    fm_status status =
-        image_file_write_rgba32f(path, image->rgba, image->width_px, image->height_px, err);
-    snprintf(path, sizeof path, "%s/images/%s%s.png", directory, id, kind);
+    char path[FM_PATH_MAX_BYTES], ending[32];
+    snprintf(ending, sizeof ending, "%.24s.exr", kind);
+    fm_status status = picture_path(path, directory, id, ending, err);
+    if (status == FM_OK)
+        status =
+            image_file_write_rgba32f(path, image->rgba, image->width_px, image->height_px, err);
+    snprintf(ending, sizeof ending, "%.24s.png", kind);
+    if (status == FM_OK)
+        status = picture_path(path, directory, id, ending, err);
     return status != FM_OK ? status : write_png(path, image, err);
 }
 
@@ -103,7 +106,7 @@ static void subtract(fm_picture_set *set, fm_image *difference, float *shares,
 static fm_status write_difference(fm_picture_set *set, const char *directory, const char *id,
                                   const fm_image *result, const fm_image *truth, fm_error *err)
 {
-    char path[1280];
+    char path[FM_PATH_MAX_BYTES];
     fm_image *difference = NULL;
     float *shares = NULL;
     if (result->width_px != truth->width_px || result->height_px != truth->height_px)
@@ -119,10 +122,12 @@ static fm_status write_difference(fm_picture_set *set, const char *directory, co
         goto out;
     }
     subtract(set, difference, shares, result, truth);
-    snprintf(path, sizeof path, "%s/images/%s.difference.exr", directory, id);
-    status = image_file_write_rgba32f(path, difference->rgba, difference->width_px,
-                                      difference->height_px, err);
-    snprintf(path, sizeof path, "%s/images/%s.difference.png", directory, id);
+    status = picture_path(path, directory, id, ".difference.exr", err);
+    if (status == FM_OK)
+        status = image_file_write_rgba32f(path, difference->rgba, difference->width_px,
+                                          difference->height_px, err);
+    if (status == FM_OK)
+        status = picture_path(path, directory, id, ".difference.png", err);
     if (status == FM_OK)
         status = write_heat_png(path, shares, difference, err);
 out:
@@ -131,25 +136,25 @@ out:
     return status;
 }
 
-static fm_status read_picture(fm_image **image, const char *directory, const char *id,
-                              const char *kind, fm_error *err)
+/* Reads a picture that was kept, and writes it. */
+static fm_status convert(fm_image **image, const char *directory, const char *id, const char *kind,
+                         fm_error *err)
 {
-    char path[1280];
-    *image = NULL;
-    snprintf(path, sizeof path, "%s/images/%s%s.rgba32f", directory, id, kind);
-    if (access(path, F_OK) != 0)
-        return FM_OK;
-    fm_status status = image_read(image, path, err);
-    return status != FM_OK ? status : write_picture(directory, id, kind, *image, err);
+    char ending[32];
+    snprintf(ending, sizeof ending, "%.20s.rgba32f", kind);
+    const fm_status status = picture_read(image, directory, id, ending, err);
+    if (status != FM_OK || *image == NULL)
+        return status;
+    return write_picture(directory, id, kind, *image, err);
 }
 
 fm_status pictures_write(fm_picture_set *set, const char *directory, const char *id, fm_error *err)
 {
     fm_image *result = NULL, *truth = NULL;
     *set = (fm_picture_set){ .max_difference = NAN };
-    fm_status status = read_picture(&result, directory, id, "", err);
+    fm_status status = convert(&result, directory, id, "", err);
     if (status == FM_OK)
-        status = read_picture(&truth, directory, id, ".truth", err);
+        status = convert(&truth, directory, id, ".truth", err);
     if (status == FM_OK && result != NULL && truth != NULL)
         status = write_difference(set, directory, id, result, truth, err);
     set->has_result = result != NULL;
@@ -159,38 +164,13 @@ fm_status pictures_write(fm_picture_set *set, const char *directory, const char 
     return status;
 }
 
-static fm_status read_kept(fm_image **image, const char *directory, const char *id, fm_error *err)
-{
-    char path[1280];
-    snprintf(path, sizeof path, "%s/images/%s.rgba32f", directory, id);
-    if (access(path, F_OK) != 0)
-        return fm_fail(err, FM_UNSUPPORTED, "the picture of case %s was not kept", id);
-    return image_read(image, path, err);
-}
-
-fm_status pictures_compare(double *max_difference, const char *directory, const char *id,
-                           const char *other, fm_error *err)
-{
-    fm_image *left = NULL, *right = NULL;
-    fm_image_error apart = { 0 };
-    fm_status status = read_kept(&left, directory, id, err);
-    if (status == FM_OK)
-        status = read_kept(&right, directory, other, err);
-    if (status == FM_OK)
-        status = image_compare(&apart, left, right, err);
-    *max_difference = status == FM_OK ? apart.max_abs : NAN;
-    image_destroy(left);
-    image_destroy(right);
-    return status;
-}
-
 fm_status pictures_write_scale(const char *directory, fm_error *err)
 {
-    char path[1280];
+    char path[FM_PATH_MAX_BYTES];
     float shares[SCALE_WIDTH_PX * SCALE_HEIGHT_PX];
     for (int i = 0; i < SCALE_WIDTH_PX * SCALE_HEIGHT_PX; i++)
         shares[i] = (float)(i % SCALE_WIDTH_PX) / (float)(SCALE_WIDTH_PX - 1);
     fm_image size = { .width_px = SCALE_WIDTH_PX, .height_px = SCALE_HEIGHT_PX };
-    snprintf(path, sizeof path, "%s/images/heat-scale.png", directory);
-    return write_heat_png(path, shares, &size, err);
+    const fm_status status = picture_path(path, directory, "heat-scale", ".png", err);
+    return status != FM_OK ? status : write_heat_png(path, shares, &size, err);
 }

@@ -22,11 +22,6 @@ typedef struct fm_picture_set {
  */
 fm_status pictures_write(fm_picture_set *set, const char *directory, const char *id, fm_error *err);
 
-/* The largest difference of a channel between the pictures of two cases. FM_UNSUPPORTED: one of
- * them was not kept; FM_INVALID: damaged, or of different sizes. */
-fm_status pictures_compare(double *max_difference, const char *directory, const char *id,
-                           const char *other, fm_error *err);
-
 /* images/heat-scale.png: the colour bar of all heat maps, FM_HEAT_LOW at the left. */
 fm_status pictures_write_scale(const char *directory, fm_error *err);
 
