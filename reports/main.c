@@ -5,6 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/path.h"
 #include "claims/verdicts.h"
 #include "page/report.h"
 
@@ -43,19 +44,21 @@ static error_t parse(int key, char *value, struct argp_state *state)
     }
 }
 
-static bool is_in_folder(char path[1024], const char *folder, size_t length, const char *id)
+static bool is_in_folder(char path[FM_PATH_MAX_BYTES], const char *folder, size_t folder_length,
+                         const char *id)
 {
-    snprintf(path, 1024, "%.*s/%s.yml", (int)length, folder, id);
-    return length > 0 && access(path, R_OK) == 0;
+    const int length =
+        snprintf(path, FM_PATH_MAX_BYTES, "%.*s/%s.yml", (int)folder_length, folder, id);
+    return folder_length > 0 && length > 0 && length < FM_PATH_MAX_BYTES && access(path, R_OK) == 0;
 }
 
 /* Where a figure's file is: the argument itself, or an id in the folders that hold figures. */
-static bool find_figure(char path[1024], const char *name)
+static bool find_figure(char path[FM_PATH_MAX_BYTES], const char *name)
 {
     const char *search = getenv("FRAGMARK_FIGURE_PATH"); /* folders with ':' between them */
     if (strchr(name, '/') != NULL || strchr(name, '.') != NULL) {
-        snprintf(path, 1024, "%s", name);
-        return access(path, R_OK) == 0;
+        snprintf(path, FM_PATH_MAX_BYTES, "%s", name);
+        return strlen(name) < FM_PATH_MAX_BYTES && access(path, R_OK) == 0;
     }
     while (search != NULL && *search != '\0') {
         size_t length = strcspn(search, ":");
@@ -71,7 +74,7 @@ static bool find_figure(char path[1024], const char *name)
  * file is no longer here costs its charts, not the report. */
 static void take_figures_of_run(arguments *given, const fm_provenance *manifest)
 {
-    char path[1024];
+    char path[FM_PATH_MAX_BYTES];
     for (size_t i = 0; i < manifest->figure_count && given->figure_count < FIGURES_MOST; i++) {
         if (find_figure(path, manifest->figures[i]))
             given->figures[given->figure_count++] = manifest->figures[i];
@@ -83,7 +86,7 @@ static void take_figures_of_run(arguments *given, const fm_provenance *manifest)
 
 static fm_status read_figures(fm_paper_figure **figures, const arguments *given, fm_error *err)
 {
-    char path[1024];
+    char path[FM_PATH_MAX_BYTES];
     for (size_t i = 0; i < given->figure_count; i++) {
         if (!find_figure(path, given->figures[i]))
             return fm_fail(err, FM_INVALID, "figure \"%s\": no such file, and no such id in %s",
@@ -96,7 +99,7 @@ static fm_status read_figures(fm_paper_figure **figures, const arguments *given,
 }
 
 /* Another machine's results: a folder, or the name of one in reports/reference. */
-static fm_status open_reference(fm_result_files **reference, char path[1024],
+static fm_status open_reference(fm_result_files **reference, char path[FM_PATH_MAX_BYTES],
                                 const arguments *given, fm_error *err)
 {
     static const char *const folders[] = { FM_REFERENCE_SOURCE_DIR, FM_REFERENCE_INSTALL_DIR };
@@ -104,12 +107,12 @@ static fm_status open_reference(fm_result_files **reference, char path[1024],
     *reference = NULL;
     if (strcmp(name, "none") == 0)
         return FM_OK;
-    if (strchr(name, '/') != NULL) {
-        snprintf(path, 1024, "%s", name);
-        return result_files_read(reference, path, err);
-    }
+    if (strchr(name, '/') != NULL)
+        return result_files_read(reference, name, err);
     for (size_t i = 0; i < sizeof folders / sizeof folders[0]; i++) {
-        snprintf(path, 1024, "%s/%s", folders[i], name);
+        const fm_status status = path_join(path, folders[i], name, err);
+        if (status != FM_OK)
+            return status;
         if (access(path, F_OK) == 0)
             return result_files_read(reference, path, err);
     }
@@ -133,16 +136,16 @@ static void drop_own_reference(fm_result_files **reference, const fm_result_file
 static fm_status judge_claims(fm_claim_results *verdicts, const fm_report_desc *report,
                               fm_error *err)
 {
-    char path[1024];
+    char path[FM_PATH_MAX_BYTES];
     const fm_verdicts_desc desc = { .results = report->results,
                                     .reference = report->reference,
                                     .figures = report->figures,
                                     .figure_count = report->figure_count };
-    const fm_status status = verdicts_make(verdicts, &desc, err);
-    snprintf(path, sizeof path, "%s/claims.csv", report->results->directory);
+    fm_status status = verdicts_make(verdicts, &desc, err);
     if (status != FM_OK || verdicts->count == 0)
         return status;
-    return verdicts_write(verdicts, path, err);
+    status = path_join(path, report->results->directory, "claims.csv", err);
+    return status != FM_OK ? status : verdicts_write(verdicts, path, err);
 }
 
 static int tell(const arguments *given, const fm_report_outcome *outcome,
@@ -167,7 +170,7 @@ static int tell(const arguments *given, const fm_report_outcome *outcome,
 static int make_report(arguments *given, fm_error *err)
 {
     int code = EXIT_DAMAGED;
-    char reference_path[1024];
+    char reference_path[FM_PATH_MAX_BYTES]; /* lives as long as what is read from there */
     fm_result_files *results = NULL, *reference = NULL;
     fm_paper_figure *figures[FIGURES_MOST] = { NULL };
     const fm_paper_figure *borrowed[FIGURES_MOST] = { NULL };

@@ -16,14 +16,17 @@
 #include "page.h"
 #include "paper_section.h"
 #include "read/group.h"
+#include "read/picture.h"
 #include "writer.h"
 
 enum { PAGE_PICTURES_BYTES = 64 << 20 }; /* more would make a page that phones cannot open */
 
 static fm_status make_folder(const fm_writer *to, const char *name)
 {
-    char path[1024];
-    snprintf(path, sizeof path, "%s/%s", to->results->directory, name);
+    char path[FM_PATH_MAX_BYTES];
+    const fm_status status = path_join(path, to->results->directory, name, to->err);
+    if (status != FM_OK)
+        return status;
     if (mkdir(path, 0777) != 0 && errno != EEXIST)
         return fm_fail(to->err, FM_IO, "%s: %s", path, strerror(errno));
     return FM_OK;
@@ -69,10 +72,12 @@ static fm_status add_speed_error(fm_writer *to, const fm_groups *groups, bool is
 static fm_status add_picture(fm_writer *to, size_t *embedded, const char *id, const char *kind,
                              const char *caption)
 {
-    char path[1280];
+    char path[FM_PATH_MAX_BYTES], ending[32];
     struct stat file;
-    fm_status status = FM_OK;
-    snprintf(path, sizeof path, "%s/images/%s%s.png", to->results->directory, id, kind);
+    snprintf(ending, sizeof ending, "%.24s.png", kind);
+    fm_status status = picture_path(path, to->results->directory, id, ending, to->err);
+    if (status != FM_OK)
+        return status;
     if (stat(path, &file) != 0)
         return fm_fail(to->err, FM_IO, "%s: %s", path, strerror(errno));
     *embedded += (size_t)file.st_size;
@@ -90,11 +95,12 @@ static fm_status add_picture(fm_writer *to, size_t *embedded, const char *id, co
 
 static fm_status add_heat_scale(fm_writer *to)
 {
-    char path[1280];
+    char path[FM_PATH_MAX_BYTES];
     fm_status status = pictures_write_scale(to->results->directory, to->err);
+    if (status == FM_OK)
+        status = picture_path(path, to->results->directory, "heat-scale", ".png", to->err);
     if (status != FM_OK)
         return status;
-    snprintf(path, sizeof path, "%s/images/heat-scale.png", to->results->directory);
     text_add(&to->page, "<p>Pictures are shown over white. The truth beside a picture holds the "
                         "fragments that its method is to keep: the k nearest, or all. The heat map "
                         "is the largest difference "
@@ -184,7 +190,7 @@ static fm_status write_sections(fm_writer *to, const fm_report_desc *desc)
 
 fm_status report_write(fm_report_outcome *outcome, const fm_report_desc *desc, fm_error *err)
 {
-    char path[1024];
+    char path[FM_PATH_MAX_BYTES];
     fm_writer to = { .desc = desc, .results = desc->results, .outcome = outcome, .err = err };
     *outcome = (fm_report_outcome){ 0 };
     fm_status status = make_folder(&to, "charts");
@@ -192,7 +198,8 @@ fm_status report_write(fm_report_outcome *outcome, const fm_report_desc *desc, f
         status = write_sections(&to, desc);
     if (status == FM_OK && to.page.failed)
         status = fm_fail(err, FM_NO_MEMORY, "report.html");
-    snprintf(path, sizeof path, "%s/report.html", desc->results->directory);
+    if (status == FM_OK)
+        status = path_join(path, desc->results->directory, "report.html", err);
     if (status == FM_OK)
         status = text_write_file(path, to.page.bytes, to.page.length, err);
     text_free(&to.page);

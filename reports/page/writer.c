@@ -4,15 +4,35 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/path.h"
 #include "draw/svg_png.h"
 #include "html.h"
 
 static const double png_zoom = 2.0;
 
+/* charts/NAME ENDING */
+static fm_status chart_path(char path[FM_PATH_MAX_BYTES], const fm_writer *to, const char *name,
+                            const char *ending)
+{
+    char file[320];
+    snprintf(file, sizeof file, "charts/%.256s%s", name, ending);
+    return path_join(path, to->results->directory, file, to->err);
+}
+
+static fm_status write_files(const fm_writer *to, const char *svg, const char *name)
+{
+    char path[FM_PATH_MAX_BYTES];
+    fm_status status = chart_path(path, to, name, ".svg");
+    if (status == FM_OK)
+        status = text_write_file(path, svg, strlen(svg), to->err);
+    if (status == FM_OK)
+        status = chart_path(path, to, name, ".png");
+    return status != FM_OK ? status : svg_png_write(path, svg, png_zoom, to->err);
+}
+
 fm_status writer_add_chart(fm_writer *to, fm_chart *chart, fm_status status, const char *name)
 {
-    char *svg = NULL, path[1280];
-    const char *directory = to->results->directory;
+    char *svg = NULL;
     if (status == FM_UNSUPPORTED) {
         text_add(&to->page, "<p class=note>No chart: ");
         html_add(&to->page, to->err->message);
@@ -25,11 +45,7 @@ fm_status writer_add_chart(fm_writer *to, fm_chart *chart, fm_status status, con
     chart_free(chart);
     if (status != FM_OK)
         return status;
-    snprintf(path, sizeof path, "%s/charts/%s.svg", directory, name);
-    status = text_write_file(path, svg, strlen(svg), to->err);
-    snprintf(path, sizeof path, "%s/charts/%s.png", directory, name);
-    if (status == FM_OK)
-        status = svg_png_write(path, svg, png_zoom, to->err);
+    status = write_files(to, svg, name);
     text_add(&to->page,
              "<div class=chart>%s</div>\n<p class=links><a href=\"charts/%s.svg\">SVG</a> "
              "<a href=\"charts/%s.png\">PNG</a></p>\n",

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/path.h"
 #include "base/text.h"
 
 #define TEXT(name, field)                                                                          \
@@ -281,9 +282,19 @@ static fm_status read_samples(fm_result_files *results, fm_error *err)
 static fm_status read_table(fm_table **table, const char *directory, const char *name,
                             fm_error *err)
 {
-    char path[1024];
-    snprintf(path, sizeof path, "%s/%s", directory, name);
-    return table_read(table, path, err);
+    char path[FM_PATH_MAX_BYTES];
+    const fm_status status = path_join(path, directory, name, err);
+    return status != FM_OK ? status : table_read(table, path, err);
+}
+
+/* *table is NULL where the run has no such file. */
+static fm_status read_optional(fm_table **table, const char *directory, const char *name,
+                               fm_error *err)
+{
+    char path[FM_PATH_MAX_BYTES];
+    const fm_status status = path_join(path, directory, name, err);
+    *table = NULL;
+    return status != FM_OK || access(path, F_OK) != 0 ? status : table_read(table, path, err);
 }
 
 uint64_t result_files_figure(const fm_result_files *results, const char *id)
@@ -296,14 +307,11 @@ uint64_t result_files_figure(const fm_result_files *results, const char *id)
 
 static fm_status read_figures(fm_result_files *results, fm_error *err)
 {
-    char path[1024];
     size_t figure = 0, id = 0;
-    snprintf(path, sizeof path, "%s/figures.csv", results->directory);
-    if (access(path, F_OK) != 0)
-        return FM_OK;
-    fm_status status = table_read(&results->figures, path, err);
-    if (status == FM_OK)
-        status = need_column(&figure, results->figures, "figure", err);
+    fm_status status = read_optional(&results->figures, results->directory, "figures.csv", err);
+    if (status != FM_OK || results->figures == NULL)
+        return status;
+    status = need_column(&figure, results->figures, "figure", err);
     if (status == FM_OK)
         status = need_column(&id, results->figures, "case_id", err);
     for (size_t row = 0; status == FM_OK && row < results->figures->row_count; row++) {
@@ -320,14 +328,11 @@ static fm_status read_figures(fm_result_files *results, fm_error *err)
 
 static fm_status read_memory(fm_result_files *results, fm_error *err)
 {
-    char path[1024];
     size_t column;
-    snprintf(path, sizeof path, "%s/memory.csv", results->directory);
-    if (access(path, F_OK) != 0)
-        return FM_OK;
-    fm_status status = table_read(&results->memory, path, err);
-    if (status == FM_OK)
-        status = need_column(&column, results->memory, "figure", err);
+    fm_status status = read_optional(&results->memory, results->directory, "memory.csv", err);
+    if (status != FM_OK || results->memory == NULL)
+        return status;
+    status = need_column(&column, results->memory, "figure", err);
     if (status == FM_OK)
         status = need_column(&column, results->memory, "workload", err);
     return status;
@@ -335,14 +340,15 @@ static fm_status read_memory(fm_result_files *results, fm_error *err)
 
 fm_status result_files_read(fm_result_files **results, const char *directory, fm_error *err)
 {
-    char path[1024];
+    char path[FM_PATH_MAX_BYTES];
     *results = NULL;
     fm_result_files *made = calloc(1, sizeof *made);
     if (made == NULL)
         return fm_fail(err, FM_NO_MEMORY, "%s", directory);
     made->directory = directory;
-    snprintf(path, sizeof path, "%s/manifest.json", directory);
-    fm_status status = provenance_read(&made->manifest, path, err);
+    fm_status status = path_join(path, directory, "manifest.json", err);
+    if (status == FM_OK)
+        status = provenance_read(&made->manifest, path, err);
     if (status == FM_OK)
         status = read_table(&made->summary, directory, "summary.csv", err);
     if (status == FM_OK)

@@ -5,14 +5,14 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "base/error.h"
+#include "base/path.h"
 
 enum { FM_TABLE_COLUMNS = 256, FM_TABLE_CELL_BYTES = 65536 };
 #define FM_TABLE_BYTES     ((size_t)1 << 30)
 #define FM_TABLE_NO_COLUMN SIZE_MAX
 
 typedef struct fm_table {
-    char path[1024]; /* for messages */
+    char path[FM_PATH_MAX_BYTES]; /* for messages */
     size_t column_count, row_count;
     const char **names; /* [column_count] */
     const char **cells; /* [row_count][column_count], "" when empty */
