@@ -67,7 +67,7 @@ void text_free(fm_text *text)
 
 bool text_list_add(fm_text_list *list, const char *text)
 {
-    if (list->count == list->capacity) {
+    if (list->count + 1 >= list->capacity) { /* room for the NULL too */
         const size_t capacity = list->capacity > 0 ? 2 * list->capacity : 8;
         char **items = realloc(list->items, capacity * sizeof *items);
         if (items == NULL)
@@ -79,15 +79,30 @@ bool text_list_add(fm_text_list *list, const char *text)
     if (copy == NULL)
         return false;
     list->items[list->count++] = copy;
+    list->items[list->count] = NULL;
+    return true;
+}
+
+bool text_list_add_all(fm_text_list *list, const fm_text_list *from)
+{
+    for (size_t i = 0; from != NULL && i < from->count; i++)
+        if (!text_list_add(list, from->items[i]))
+            return false;
     return true;
 }
 
 bool text_list_has(const fm_text_list *list, const char *text)
 {
-    for (size_t i = 0; i < list->count; i++)
+    for (size_t i = 0; list != NULL && i < list->count; i++)
         if (strcmp(list->items[i], text) == 0)
             return true;
     return false;
+}
+
+const char *const *text_list_items(const fm_text_list *list)
+{
+    static const char *const none[] = { NULL };
+    return list->items != NULL ? (const char *const *)list->items : none;
 }
 
 void text_list_free(fm_text_list *list)

@@ -21,12 +21,19 @@ void text_free(fm_text *text);
 
 /* A growing list of owned copies. Starts as {0}. */
 typedef struct fm_text_list {
-    char **items;
+    char **items; /* ends with NULL once anything was added */
     size_t count, capacity;
 } fm_text_list;
 
 bool text_list_add(fm_text_list *list, const char *text); /* false: no memory; the list stays */
+/* Adds copies of all of `from`, which may be NULL; false: no memory, and perhaps a part was added.
+ */
+bool text_list_add_all(fm_text_list *list, const fm_text_list *from);
+/* Whether the text is in the list, which may be NULL and then holds none. */
 bool text_list_has(const fm_text_list *list, const char *text);
+/* The items as an array that ends with NULL, also when there are none; it holds until the list
+ * changes. */
+const char *const *text_list_items(const fm_text_list *list);
 void text_list_free(fm_text_list *list);
 
 /* A whole file, NUL-terminated, at most limit_bytes. The caller frees *bytes. */

@@ -117,6 +117,25 @@ static void text_files_name_the_path_that_fails(void **state)
     assert_non_null(strstr(err.message, "/nowhere/a"));
 }
 
+static void text_list_holds_copies_and_ends_with_null(void **state)
+{
+    (void)state;
+    char name[] = "a";
+    fm_text_list list = { 0 }, copy = { 0 };
+    assert_null(text_list_items(&list)[0]);
+    for (int i = 0; i < 20; i++, name[0]++) {
+        assert_true(text_list_add(&list, name));
+        assert_null(text_list_items(&list)[list.count]);
+    }
+    assert_true(text_list_add_all(&copy, &list) && text_list_add_all(&copy, NULL));
+    assert_int_equal(copy.count, 20);
+    assert_string_equal(text_list_items(&copy)[19], "t");
+    assert_true(text_list_has(&copy, "a") && !text_list_has(&copy, "u"));
+    assert_false(text_list_has(NULL, "a"));
+    text_list_free(&list);
+    text_list_free(&copy);
+}
+
 static void text_nearest_needs_half_of_the_word(void **state)
 {
     (void)state;
@@ -300,6 +319,7 @@ int main(void)
         cmocka_unit_test(text_read_file_takes_empty_files),
         cmocka_unit_test(text_read_file_refuses_what_is_above_the_limit),
         cmocka_unit_test(text_files_name_the_path_that_fails),
+        cmocka_unit_test(text_list_holds_copies_and_ends_with_null),
         cmocka_unit_test(text_nearest_needs_half_of_the_word),
         cmocka_unit_test(text_is_utf8_knows_what_json_refuses),
         cmocka_unit_test(text_make_utf8_replaces_only_bad_bytes),
