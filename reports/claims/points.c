@@ -16,13 +16,13 @@ static const double few_samples_share = 0.15;
 
 /* ---- values ---- */
 
-static bool is_time(const fm_name_list *metrics)
+static bool is_time(const fm_text_list *metrics)
 {
     for (size_t i = 0; i < metrics->count; i++) {
-        if (strncmp(metrics->names[i], "fps", 3) == 0)
+        if (strncmp(metrics->items[i], "fps", 3) == 0)
             return true;
-        const size_t length = strlen(metrics->names[i]);
-        if (length > 3 && strcmp(metrics->names[i] + length - 3, "_ms") == 0)
+        const size_t length = strlen(metrics->items[i]);
+        if (length > 3 && strcmp(metrics->items[i] + length - 3, "_ms") == 0)
             return true;
     }
     return false;
@@ -39,8 +39,9 @@ static fm_interval measured_value(bool *has_few, const fm_selection *selection,
                                   const fm_claim_rows *rows, const fm_case_row *result)
 {
     size_t samples = 0;
-    fm_interval value = result_files_interval(&samples, rows->results, result,
-                                              selection->metrics.names, selection->metrics.count);
+    fm_interval value =
+        result_files_interval(&samples, rows->results, result, text_list_items(&selection->metrics),
+                              selection->metrics.count);
     if (samples == 0)
         samples = isnan(result->samples) ? 0 : (size_t)result->samples;
     const bool is_single = result->is_software && result->launches < 2.0;
@@ -89,25 +90,15 @@ static const char *why_missing(const fm_case_row *result)
     return result->message[0] != '\0' ? result->message : result->status;
 }
 
-/* The columns that a selection names itself may differ from `of`. */
-static fm_name_list own_columns(const fm_selection *selection)
-{
-    fm_name_list list = { 0 };
-    for (size_t i = 0; i < selection->test_count; i++)
-        if (selection->tests[i].is_own)
-            list.names[list.count++] = selection->tests[i].key;
-    return list;
-}
-
 /* Same method and options, but for what the other selection names itself. */
 static bool is_own_partner(const fm_selection *selection, const fm_case_row *of,
                            const fm_case_row *other)
 {
-    const fm_name_list own = own_columns(selection);
-    if (!name_list_names(&own, "method") && strcmp(of->method, other->method) != 0)
+    const fm_text_list *own = &selection->own_columns;
+    if (!text_list_has(own, "method") && strcmp(of->method, other->method) != 0)
         return false;
-    return name_list_names(&own, "method") ||
-           options_are_same(of->options, other->options, FM_OPTIONS_OWN, &own);
+    return text_list_has(own, "method") ||
+           options_are_same(of->options, other->options, FM_OPTIONS_OWN, own);
 }
 
 /* Of several partners the greatest where the selection says so, else the least. */
@@ -129,11 +120,11 @@ static partner find_partner(const points_job *job, const fm_selection *selection
                             const fm_case_row *subject)
 {
     partner best = { 0 };
-    const fm_name_list own = own_columns(selection);
+    const fm_text_list *own = &selection->own_columns;
     for (size_t i = 0; i < job->rows->results->count; i++) {
         partner one = { .result = &job->rows->results->cases[i] };
         if (!match_takes(job->claim, job->rows, i) || !match_row(selection, job->rows, i) ||
-            !workload_same(subject, one.result, &own) ||
+            !workload_same(subject, one.result, own) ||
             !is_own_partner(selection, subject, one.result))
             continue;
         one.value = measured_value(&one.has_few_samples, selection, job->rows, one.result);
@@ -209,10 +200,9 @@ static bool evaluate(fm_claim_point *point, points_job *job, const fm_selection 
 static void add_point(points_job *job, const fm_selection *of, const fm_claim_point *point)
 {
     fm_claim_points *to = job->points;
-    const fm_name_list none = { 0 };
     for (size_t i = 0; i < to->count && of->take != FM_TAKE_EACH; i++) {
         fm_claim_point *old = &to->points[i];
-        if (old->selection != point->selection || !workload_same(old->result, point->result, &none))
+        if (old->selection != point->selection || !workload_same(old->result, point->result, NULL))
             continue;
         const bool is_better = of->take == FM_TAKE_LEAST ? point->value.median < old->value.median
                                                          : point->value.median > old->value.median;
@@ -243,7 +233,7 @@ static double memory_value(const fm_selection *selection, const fm_claim_rows *r
     for (size_t i = 0; i < selection->metrics.count; i++) {
         double value = NAN;
         table_number(&value, rows->memory, row,
-                     table_column(rows->memory, selection->metrics.names[i]), NULL);
+                     table_column(rows->memory, selection->metrics.items[i]), NULL);
         sum += value;
     }
     return sum;
@@ -254,13 +244,13 @@ static double memory_value(const fm_selection *selection, const fm_claim_rows *r
 static double memory_partner(const fm_selection *selection, const fm_claim_rows *rows, size_t row)
 {
     const size_t workload = table_column(rows->memory, "workload");
-    const fm_name_list own = own_columns(selection);
+    const fm_text_list *own = &selection->own_columns;
     double found = NAN;
-    if (own.count == 0)
+    if (own->count == 0)
         return memory_value(selection, rows, row);
     for (size_t i = 0; i < rows->memory->row_count; i++) {
         if (!match_memory_row(selection, rows, i) ||
-            (!name_list_names(&own, "workload") &&
+            (!text_list_has(own, "workload") &&
              strcmp(table_cell(rows->memory, i, workload),
                     table_cell(rows->memory, row, workload)) != 0))
             continue;
@@ -295,22 +285,14 @@ static void add_memory_points(points_job *job, size_t selection)
 
 /* ---- order and names ---- */
 
-static fm_name_list free_columns_of(const fm_claim *claim)
-{
-    fm_name_list list = claim->across;
-    if (claim->along[0] != '\0' && list.count < FM_NAME_LIST)
-        list.names[list.count++] = claim->along;
-    return list;
-}
-
 bool claim_point_same_workload(const fm_claim *claim, const fm_claim_point *a,
                                const fm_claim_point *b)
 {
     if (a->result == NULL || b->result == NULL)
         return a->result == b->result;
-    const fm_name_list list = claim->form == FM_CLAIM_ORDER ? own_columns(&claim->of[b->selection])
-                                                            : free_columns_of(claim);
-    return workload_same(a->result, b->result, &list);
+    return workload_same(a->result, b->result,
+                         claim->form == FM_CLAIM_ORDER ? &claim->of[b->selection].own_columns
+                                                       : &claim->free_columns);
 }
 
 bool claim_point_same_series(const fm_claim *claim, const fm_claim_point *a,
@@ -318,10 +300,10 @@ bool claim_point_same_series(const fm_claim *claim, const fm_claim_point *a,
 {
     if (a->selection != b->selection || !claim_point_same_workload(claim, a, b))
         return false;
-    const fm_name_list list = free_columns_of(claim);
     return a->result == NULL || claim->of[a->selection].take != FM_TAKE_EACH ||
            (strcmp(a->result->method, b->result->method) == 0 &&
-            options_are_same(a->result->options, b->result->options, FM_OPTIONS_OWN, &list));
+            options_are_same(a->result->options, b->result->options, FM_OPTIONS_OWN,
+                             &claim->free_columns));
 }
 
 /* Brings the points of each series together, x rising: an insertion sort, which the few points of

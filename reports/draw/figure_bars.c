@@ -32,7 +32,7 @@ static double add_stack(fm_figure_job *job, bar_place *place, const fm_case_row 
     for (size_t i = 0; i <= job->from->parts.count; i++) {
         double value =
             i < job->from->parts.count
-                ? result_files_metric(job->results, result, job->from->parts.names[i])
+                ? result_files_metric(job->results, result, job->from->parts.items[i])
                 : result->frame_ms - top; /* own passes, and what medians of parts leave */
         if (!isfinite(value) || value <= (i < job->from->parts.count ? 0.0 : 0.02 * top))
             continue;
@@ -142,14 +142,14 @@ static void add_part_keys(fm_figure_job *job)
             snprintf(key->label, sizeof key->label, "rest of the frame");
             continue;
         }
-        const char *name = job->from->parts.names[i];
+        const char *name = job->from->parts.items[i];
         snprintf(key->label, sizeof key->label, "%.*s", (int)strcspn(name, "_"), name);
     }
 }
 
 static bool has_times(const fm_figure_job *job)
 {
-    const char *first = job->from->parts.names[0];
+    const char *first = job->from->parts.items[0];
     const size_t length = strlen(first);
     return length > 3 && strcmp(first + length - 3, "_ms") == 0;
 }

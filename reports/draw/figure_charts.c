@@ -12,18 +12,20 @@
 
 static const double plot_width_px = 560, plot_height_px = 380;
 
-const fm_group *figure_reference_group(const fm_groups *reference, const fm_group *group,
-                                       const fm_figure_chart *chart)
+fm_status figure_reference_group(const fm_group **found, const fm_groups *reference,
+                                 const fm_group *group, const fm_figure_chart *chart, fm_error *err)
 {
     static const char *const other[] = { "device", "width_px", "height_px", "k" };
-    fm_name_list free_columns = figure_free_columns(chart);
-    for (size_t i = 0; i < sizeof other / sizeof other[0]; i++)
-        if (free_columns.count < FM_NAME_LIST)
-            free_columns.names[free_columns.count++] = other[i];
-    for (size_t i = 0; i < reference->count; i++)
+    fm_text_list free_columns = { 0 };
+    bool is_whole = text_list_add_all(&free_columns, &chart->free_columns);
+    *found = NULL;
+    for (size_t i = 0; i < sizeof other / sizeof other[0] && is_whole; i++)
+        is_whole = text_list_add(&free_columns, other[i]);
+    for (size_t i = 0; i < reference->count && is_whole && *found == NULL; i++)
         if (workload_same(reference->groups[i].cases[0], group->cases[0], &free_columns))
-            return &reference->groups[i];
-    return NULL;
+            *found = &reference->groups[i];
+    text_list_free(&free_columns);
+    return is_whole ? FM_OK : fm_fail(err, FM_NO_MEMORY, "chart %s", chart->id);
 }
 
 /* How much of the group's title holds for all that is drawn: its end names the feed. */
@@ -31,7 +33,7 @@ static int title_bytes(const fm_group *group, const fm_figure_chart *from)
 {
     const int most = 90;
     const char *feed = strrchr(group->title, ',');
-    if (feed == NULL || feed - group->title > most || !name_list_names(&from->across, "feed"))
+    if (feed == NULL || feed - group->title > most || !text_list_has(&from->free_columns, "feed"))
         return most;
     return (int)(feed - group->title);
 }

@@ -11,9 +11,10 @@ typedef struct fm_figure_source {
 } fm_figure_source;
 
 /* The group of the reference with the workload of a group, whatever the device and the size of the
- * viewport; NULL: there is none. */
-const fm_group *figure_reference_group(const fm_groups *reference, const fm_group *group,
-                                       const fm_figure_chart *chart);
+ * viewport; *found is NULL where there is none. FM_NO_MEMORY. */
+fm_status figure_reference_group(const fm_group **found, const fm_groups *reference,
+                                 const fm_group *group, const fm_figure_chart *chart,
+                                 fm_error *err);
 
 /* One chart of the figure for one group. Methods that do not use k are level lines. FM_UNSUPPORTED:
  * the group has nothing to draw in it, with the reason. The caller frees *chart. */

@@ -13,7 +13,7 @@ void figure_style_series(fm_series *series, const fm_method_info *look)
 
 const char *figure_scene_name(const fm_figure_job *job, size_t place)
 {
-    const char *scene = job->figure->scenes.names[place - 1], *slash = strrchr(scene, '/');
+    const char *scene = job->figure->scenes.items[place - 1], *slash = strrchr(scene, '/');
     return slash != NULL ? slash + 1 : scene;
 }
 
@@ -68,9 +68,9 @@ void figure_title_column(char title[128], const char *column)
     quantity_title(title, column, "");
 }
 
-void figure_title_quantity(char title[128], const fm_name_list *metrics)
+void figure_title_quantity(char title[128], const fm_text_list *metrics)
 {
-    quantity_title(title, metrics->names[0], unit_of(metrics->names[0]));
+    quantity_title(title, metrics->items[0], unit_of(metrics->items[0]));
 }
 
 void figure_title_ratio(char title[128], const fm_figure_job *job)

@@ -15,7 +15,7 @@ size_t figure_add_upright(fm_chart *chart, double x_px, const char *text);
 /* "frame time [ms]": of a column. */
 void figure_title_column(char title[128], const char *column);
 /* The same of the sum of metrics, after the first of them. */
-void figure_title_quantity(char title[128], const fm_name_list *metrics);
+void figure_title_quantity(char title[128], const fm_text_list *metrics);
 /* "y / that of ratio_to's method" */
 void figure_title_ratio(char title[128], const fm_figure_job *job);
 

@@ -33,9 +33,9 @@ static bool value_at(fm_point *point, const fm_figure_job *job, const fm_case_ro
 /* A method without a k joins the workloads of others that differ in it. */
 static bool has_other_k(const fm_figure_job *job, const fm_case_row *one)
 {
-    const fm_name_list free_columns = figure_free_columns(job->from);
     bool differs = false;
-    for (size_t i = 0; i < job->group->count && !name_list_names(&free_columns, "k"); i++) {
+    for (size_t i = 0; i < job->group->count && !text_list_has(&job->from->free_columns, "k");
+         i++) {
         const fm_case_row *other = job->group->cases[i];
         differs |= strcmp(other->method, one->method) == 0 && other->k != one->k;
     }
@@ -44,11 +44,10 @@ static bool has_other_k(const fm_figure_job *job, const fm_case_row *one)
 
 static void label_ours(fm_series *series, const fm_figure_job *job, const fm_case_row *one)
 {
-    const fm_name_list free_columns = figure_free_columns(job->from);
     char title[96], k[24] = "";
     if (series->point_count == 0)
         return;
-    group_series_title(title, one, &free_columns);
+    group_series_title(title, one, &job->from->free_columns);
     if (has_other_k(job, one))
         snprintf(k, sizeof k, ", k = %.0f", one->k);
     snprintf(series->label, sizeof series->label, "%.56s%s%s", title, k,

@@ -64,7 +64,6 @@ static double bar_length(const tornado_bar *bar, double nominal)
 /* false: there is nothing of this method to draw. */
 static bool fill_block(tornado_block *block, const fm_figure_job *job, size_t first)
 {
-    const fm_name_list free_columns = figure_free_columns(job->from);
     *block = (tornado_block){ .nominal = mean_ratio(job, first, job->from->y) };
     for (size_t i = 0; i < job->from->swept_count && isfinite(block->nominal); i++) {
         const fm_figure_swept *swept = &job->from->sweep[i];
@@ -76,7 +75,7 @@ static bool fill_block(tornado_block *block, const fm_figure_job *job, size_t fi
         block->count += isfinite(bar->low) && isfinite(bar->high);
     }
     qsort(block->bars, block->count, sizeof block->bars[0], compare_bars);
-    group_series_title(block->title, job->group->cases[first], &free_columns);
+    group_series_title(block->title, job->group->cases[first], &job->from->free_columns);
     return block->count > 0;
 }
 

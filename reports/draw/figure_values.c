@@ -6,14 +6,6 @@
 
 #include "read/options.h"
 
-fm_name_list figure_free_columns(const fm_figure_chart *chart)
-{
-    fm_name_list list = chart->across;
-    if (list.count < FM_NAME_LIST)
-        list.names[list.count++] = chart->x;
-    return list;
-}
-
 static void note(fm_figure_job *job, fm_numbers *numbers, double value)
 {
     if (numbers->count == numbers->capacity) {
@@ -63,7 +55,7 @@ bool figure_is_level(const fm_figure_job *job, const fm_case_row *result)
 double figure_x(const fm_figure_job *job, const fm_case_row *result)
 {
     for (size_t i = 0; figure_is_by_scene(job) && i < job->figure->scenes.count; i++)
-        if (strcmp(job->figure->scenes.names[i], result->scene) == 0)
+        if (strcmp(job->figure->scenes.items[i], result->scene) == 0)
             return (double)(i + 1);
     if (strcmp(job->from->x, "k") == 0 && isnan(result->k))
         return k_of_workload(result);
@@ -94,7 +86,7 @@ size_t figure_distinct_x(double *xs, const fm_figure_job *job)
 fm_interval figure_y(const fm_figure_job *job, const fm_case_row *result)
 {
     size_t samples;
-    return result_files_interval(&samples, job->results, result, job->from->ys.names,
+    return result_files_interval(&samples, job->results, result, text_list_items(&job->from->ys),
                                  job->from->ys.count);
 }
 
@@ -111,12 +103,12 @@ const fm_case_row *figure_base_at(const fm_figure_job *job, double x)
 
 bool figure_is_same_series(const fm_figure_job *job, size_t a, size_t b)
 {
-    const fm_name_list free_columns = figure_free_columns(job->from);
+    const fm_text_list *free_columns = &job->from->free_columns;
     const fm_case_row *one = job->group->cases[a], *other = job->group->cases[b];
     const bool same_k = one->k == other->k || (isnan(one->k) && isnan(other->k));
     return strcmp(one->method, other->method) == 0 &&
-           (same_k || name_list_names(&free_columns, "k")) &&
-           options_are_same(one->options, other->options, FM_OPTIONS_OWN, &free_columns);
+           (same_k || text_list_has(free_columns, "k")) &&
+           options_are_same(one->options, other->options, FM_OPTIONS_OWN, free_columns);
 }
 
 bool figure_starts_series(const fm_figure_job *job, size_t i)

@@ -24,9 +24,6 @@ typedef struct fm_figure_job {
     fm_numbers x, y; /* values that the axes must hold */
 } fm_figure_job;
 
-/* The columns in which cases of one chart differ: its x, and what changes with it. */
-fm_name_list figure_free_columns(const fm_figure_chart *chart);
-
 /* Adds a value that the axis of y must hold, and all of a point for both axes. Out of memory is
  * remembered in the chart's `failed`. */
 void figure_note_y(fm_figure_job *job, double value);

@@ -64,12 +64,12 @@ void page_begin(fm_text *page, const fm_result_files *results)
     text_add(page, "</dl>\n");
 }
 
-void page_add_links(fm_text *page, const fm_name_list *papers)
+void page_add_links(fm_text *page, const fm_text_list *papers)
 {
     text_add(page, "<nav>");
     for (size_t i = 0; i < papers->count; i++)
-        text_add(page, "<a href=\"#paper-%s\">%s</a>", papers->names[i],
-                 strcmp(papers->names[i], "none") == 0 ? "figures" : papers->names[i]);
+        text_add(page, "<a href=\"#paper-%s\">%s</a>", papers->items[i],
+                 strcmp(papers->items[i], "none") == 0 ? "figures" : papers->items[i]);
     text_add(page, "<a href=\"#pictures\">Pictures</a><a href=\"#speed\">Speed against error</a>"
                    "<a href=\"#notes\">Notes</a><a href=\"#guide\">How to read</a><a "
                    "href=\"#machine\">Machine and methods</a></nav>\n");

@@ -4,12 +4,11 @@
 
 #include "base/text.h"
 #include "read/result_files.h"
-#include "read/yaml_fields.h"
 
 /* From <!doctype> to the title, what, where and when. */
 void page_begin(fm_text *page, const fm_result_files *results);
 /* Links to the parts; papers: ids of those that have a part. */
-void page_add_links(fm_text *page, const fm_name_list *papers);
+void page_add_links(fm_text *page, const fm_text_list *papers);
 /* How to read: floor, times_floor, intervals, errors, frontier. */
 void page_add_guide(fm_text *page);
 /* What limits these results: races that this machine cannot show, failed cases, few samples. */

@@ -39,7 +39,7 @@ static fm_status make_groups(fm_groups *groups, const fm_result_files *results,
     const fm_figure_cases cases = figure_cases(results, figure);
     const fm_groups_desc desc = { .filter = figure_takes_case,
                                   .context = &cases,
-                                  .free_columns = figure_free_columns(chart) };
+                                  .free_columns = &chart->free_columns };
     return groups_make(groups, results, &desc, err);
 }
 
@@ -47,6 +47,17 @@ static fm_status make_groups(fm_groups *groups, const fm_result_files *results,
 static bool shows_reference(const fm_writer *to, const fm_figure_chart *chart)
 {
     return chart->ratio_to != NULL || to->desc->draws_reference;
+}
+
+static fm_status add_chart(fm_writer *to, const fm_paper_figure *figure,
+                           const fm_figure_chart *from, const fm_figure_source *own,
+                           const fm_figure_source *reference)
+{
+    char name[256];
+    fm_chart chart;
+    snprintf(name, sizeof name, "%.60s-%.40s-%.120s", figure->id, from->id, own->group->name);
+    const fm_status status = figure_chart_make(&chart, figure, from, own, reference, to->err);
+    return writer_add_chart(to, &chart, status, name);
 }
 
 static fm_status add_charts(fm_writer *to, const fm_paper_figure *figure,
@@ -59,15 +70,11 @@ static fm_status add_charts(fm_writer *to, const fm_paper_figure *figure,
         return status;
     status = make_groups(&reference_groups, reference, figure, from, to->err);
     for (size_t i = 0; i < groups.count && status == FM_OK; i++) {
-        char name[256];
-        fm_chart chart;
-        const fm_group *group = &groups.groups[i];
-        const fm_figure_source own = { to->results, group };
-        const fm_figure_source other = { reference,
-                                         figure_reference_group(&reference_groups, group, from) };
-        snprintf(name, sizeof name, "%.60s-%.40s-%.120s", figure->id, from->id, group->name);
-        status = figure_chart_make(&chart, figure, from, &own, &other, to->err);
-        status = writer_add_chart(to, &chart, status, name);
+        const fm_figure_source own = { to->results, &groups.groups[i] };
+        fm_figure_source other = { .results = reference };
+        status = figure_reference_group(&other.group, &reference_groups, own.group, from, to->err);
+        if (status == FM_OK)
+            status = add_chart(to, figure, from, &own, &other);
         (*drawn)++;
     }
     groups_free(&groups);
@@ -82,7 +89,7 @@ static void add_deviations(fm_text *page, const fm_paper_figure *figure)
     text_add(page, "<p>Deviations:</p>\n<ul>\n");
     for (size_t i = 0; i < figure->deviations.count; i++) {
         text_add(page, "<li>");
-        html_add(page, figure->deviations.names[i]);
+        html_add(page, figure->deviations.items[i]);
         text_add(page, "</li>\n");
     }
     text_add(page, "</ul>\n");
@@ -125,20 +132,17 @@ static fm_status add_paper(fm_writer *to, const char *paper)
     return status;
 }
 
-fm_name_list paper_sections_names(const fm_report_desc *desc)
+void paper_sections_names(fm_text_list *names, fm_text *page, const fm_report_desc *desc)
 {
-    fm_name_list list = { 0 };
-    for (size_t i = 0; i < desc->figure_count && list.count < FM_NAME_LIST; i++)
-        if (!name_list_names(&list, desc->figures[i]->paper))
-            list.names[list.count++] = desc->figures[i]->paper;
-    return list;
+    for (size_t i = 0; i < desc->figure_count; i++)
+        if (!text_list_has(names, desc->figures[i]->paper))
+            page->failed |= !text_list_add(names, desc->figures[i]->paper);
 }
 
-fm_status paper_sections_add(fm_writer *to)
+fm_status paper_sections_add(fm_writer *to, const fm_text_list *names)
 {
-    const fm_name_list names = paper_sections_names(to->desc);
     fm_status status = FM_OK;
-    for (size_t i = 0; i < names.count && status == FM_OK; i++)
-        status = add_paper(to, names.names[i]);
+    for (size_t i = 0; i < names->count && status == FM_OK; i++)
+        status = add_paper(to, names->items[i]);
     return status;
 }

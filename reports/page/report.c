@@ -172,10 +172,11 @@ static fm_status write_sections(fm_writer *to, const fm_report_desc *desc)
     fm_status status = groups_make(&groups, to->results, &all, to->err);
     if (status != FM_OK)
         return status;
-    const fm_name_list papers = paper_sections_names(desc);
+    fm_text_list papers = { 0 };
+    paper_sections_names(&papers, &to->page, desc);
     page_begin(&to->page, to->results);
     page_add_links(&to->page, &papers);
-    status = paper_sections_add(to);
+    status = paper_sections_add(to, &papers);
     if (status == FM_OK)
         status = add_pictures(to, &groups);
     if (status == FM_OK)
@@ -184,6 +185,7 @@ static fm_status write_sections(fm_writer *to, const fm_report_desc *desc)
     page_add_guide(&to->page);
     page_add_machine(&to->page, to->results);
     page_end(&to->page);
+    text_list_free(&papers);
     groups_free(&groups);
     return status;
 }

@@ -73,9 +73,23 @@ static fm_status add_test(fm_selection *selection, const fm_yaml *value, const f
         if (value->items[j].kind != FM_YAML_SCALAR)
             return fm_fail(at->err, FM_INVALID, "%s:%u: %s: a list of values is expected", at->path,
                            value->line, value->key);
-    selection->tests[i] = (fm_claim_test){ .key = value->key, .value = value, .is_own = true };
+    if (!text_list_add(&selection->own_columns, value->key))
+        return fm_fail(at->err, FM_NO_MEMORY, "%s:%u: %s", at->path, value->line, value->key);
+    selection->tests[i] = (fm_claim_test){ .key = value->key, .value = value };
     selection->test_count += i == selection->test_count;
     return FM_OK;
+}
+
+static fm_status read_metrics(fm_selection *selection, const fm_selection *from, const fm_yaml *map,
+                              const fm_yaml_place *at)
+{
+    const fm_status status = field_list(&selection->metrics, map, "metric", at);
+    if (status != FM_OK || selection->metrics.count > 0)
+        return status;
+    if (from != NULL ? text_list_add_all(&selection->metrics, &from->metrics)
+                     : text_list_add(&selection->metrics, "frame_ms"))
+        return FM_OK;
+    return fm_fail(at->err, FM_NO_MEMORY, "%s:%u: metric", at->path, map->line);
 }
 
 /* `from`: what is taken over; NULL for `of`. */
@@ -85,14 +99,12 @@ static fm_status read_selection(fm_selection *selection, const fm_selection *fro
     static const char *const takes[] = { "each", "least", "greatest" };
     static const char *const tables[] = { "summary", "memory" };
     int take = 0, table = 0;
-    fm_name_list metrics = { 0 };
     *selection = from != NULL ? *from : (fm_selection){ 0 };
-    for (size_t i = 0; i < selection->test_count; i++)
-        selection->tests[i].is_own = false;
+    selection->own_columns = selection->metrics = (fm_text_list){ 0 }; /* not to be owned twice */
     if (map->kind != FM_YAML_MAP)
         return fm_fail(at->err, FM_INVALID, "%s:%u: a selection has keys and values", at->path,
                        map->line);
-    fm_status status = field_list(&metrics, map, "metric", at);
+    fm_status status = read_metrics(selection, from, map, at);
     if (status == FM_OK)
         status = field_word(&take, map, "take", WORDS(takes), at);
     if (status == FM_OK && yaml_tree_find(map, "table") != NULL) {
@@ -105,10 +117,6 @@ static fm_status read_selection(fm_selection *selection, const fm_selection *fro
         if (!is_reserved(map->items[i].key))
             status = add_test(selection, &map->items[i], at);
     selection->take = (fm_take)take;
-    if (metrics.count > 0)
-        selection->metrics = metrics;
-    if (selection->metrics.count == 0)
-        selection->metrics = (fm_name_list){ .names = { "frame_ms" }, .count = 1 };
     return status;
 }
 
@@ -215,7 +223,10 @@ static fm_status read_shape(fm_claim *claim, const fm_yaml *map, const fm_yaml_p
     fm_status status = field_text(&claim->along, map, "along", needs[claim->form].along, at);
     claim->level = 1.0;
     if (status == FM_OK)
-        status = field_list(&claim->across, map, "across", at);
+        status = field_list(&claim->free_columns, map, "across", at);
+    if (status == FM_OK && claim->along[0] != '\0' &&
+        !text_list_add(&claim->free_columns, claim->along))
+        status = fm_fail(at->err, FM_NO_MEMORY, "%s: claim %s", at->path, claim->id);
     if (status == FM_OK)
         status = field_number(&claim->level, map, "level", at);
     if (status == FM_OK)
@@ -277,10 +288,29 @@ fm_status claims_read(fm_claim **claims, size_t *count, const fm_yaml *list,
                                  list->items[i].line, made[i].id);
     }
     if (status != FM_OK) {
-        free(made);
+        claims_free(made, list->count);
         return status;
     }
     *claims = made;
     *count = list->count;
     return FM_OK;
+}
+
+static void selection_free(fm_selection *selection)
+{
+    text_list_free(&selection->own_columns);
+    text_list_free(&selection->metrics);
+}
+
+void claims_free(fm_claim *claims, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        for (size_t k = 0; k < claims[i].of_count; k++)
+            selection_free(&claims[i].of[k]);
+        selection_free(&claims[i].minus);
+        selection_free(&claims[i].over);
+        selection_free(&claims[i].over_minus);
+        text_list_free(&claims[i].free_columns);
+    }
+    free(claims);
 }

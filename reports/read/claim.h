@@ -58,7 +58,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "yaml_fields.h"
+#include "base/yaml_fields.h"
 
 enum { FM_CLAIM_TESTS = 16, FM_CLAIM_SELECTIONS = 12, FM_CLAIMS = 64 };
 
@@ -83,7 +83,6 @@ typedef enum fm_selection_table { FM_SELECT_SUMMARY, FM_SELECT_MEMORY } fm_selec
 typedef struct fm_claim_test {
     const char *key;
     const fm_yaml *value;
-    bool is_own; /* not taken over from `of` */
 } fm_claim_test;
 
 enum { FM_FORMULA_TERMS = 5 };
@@ -91,7 +90,8 @@ enum { FM_FORMULA_TERMS = 5 };
 typedef struct fm_selection {
     fm_claim_test tests[FM_CLAIM_TESTS];
     size_t test_count;
-    fm_name_list metrics;
+    fm_text_list own_columns; /* keys of the tests that are not taken over from `of` */
+    fm_text_list metrics;     /* summed */
     fm_take take;
     fm_selection_table table;
     bool is_formula;
@@ -107,16 +107,17 @@ typedef struct fm_claim {
     size_t of_count;
     fm_selection minus, over, over_minus;
     bool has_minus, has_over, has_over_minus;
-    const char *along; /* "": none */
-    fm_name_list across;
+    const char *along;           /* "": none */
+    fm_text_list free_columns;   /* in which points of a curve differ: `across`, and along */
     double low, high, tolerance; /* bounds before tolerance; infinite: none */
     double level, between[2];
     bool rises, is_linear, wants_greatest;
 } fm_claim;
 
 /* Reads the list `claims` of a figure's file; NULL: there are none. Texts point into the tree. The
- * caller frees *claims. FM_NO_MEMORY; FM_INVALID: naming file and line. */
+ * caller frees the claims. FM_NO_MEMORY; FM_INVALID: naming file and line. */
 fm_status claims_read(fm_claim **claims, size_t *count, const fm_yaml *list,
                       const fm_yaml_place *at);
+void claims_free(fm_claim *claims, size_t count);
 
 #endif

@@ -15,7 +15,7 @@ bool group_same_series(const fm_case_row *a, const fm_case_row *b)
            options_are_same(a->options, b->options, FM_OPTIONS_OWN, NULL);
 }
 
-void group_series_title(char title[96], const fm_case_row *result, const fm_name_list *without)
+void group_series_title(char title[96], const fm_case_row *result, const fm_text_list *without)
 {
     char options[FM_OPTIONS_TEXT_BYTES];
     options_select(options, result->options, FM_OPTIONS_OWN, without);
@@ -80,7 +80,7 @@ static const fm_case_row *best_known(const fm_group *group)
     return group->cases[0];
 }
 
-static void describe(fm_group *group, const fm_name_list *free_columns)
+static void describe(fm_group *group, const fm_text_list *free_columns)
 {
     const fm_case_row *one = best_known(group);
     snprintf(group->title, sizeof group->title, "%s%.60s, %.20s%s%.50s, %.30s",
@@ -96,12 +96,12 @@ static void describe(fm_group *group, const fm_name_list *free_columns)
         { "fragment_probability", "survival", one->fragment_probability },
         { "tessellation", "tessellation", one->tessellation },
     };
-    if (!name_list_names(free_columns, "width_px"))
+    if (!text_list_has(free_columns, "width_px"))
         snprintf(group->workload, sizeof group->workload, "%.0f x %.0f pixels", one->width_px,
                  one->height_px);
     size_t room = sizeof group->workload;
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
-        if (!name_list_names(free_columns, numbers[i].column) && !(i == 0 && !isnan(one->r)))
+        if (!text_list_has(free_columns, numbers[i].column) && !(i == 0 && !isnan(one->r)))
             add_number(group->workload, room, numbers[i].title, numbers[i].value);
     size_t used = strlen(group->workload);
     if (one->order[0] != '\0')
@@ -132,7 +132,7 @@ static void name_group(fm_groups *groups, size_t index)
 }
 
 static fm_group *find_group(fm_groups *groups, const fm_case_row *result, size_t case_limit,
-                            const fm_name_list *free_columns)
+                            const fm_text_list *free_columns)
 {
     for (size_t i = 0; i < groups->count; i++)
         if (workload_same(groups->groups[i].cases[0], result, free_columns))
@@ -145,23 +145,32 @@ static fm_group *find_group(fm_groups *groups, const fm_case_row *result, size_t
     return grown[groups->count].cases == NULL ? NULL : &grown[groups->count++];
 }
 
-fm_status groups_make(fm_groups *groups, const fm_result_files *results, const fm_groups_desc *desc,
-                      fm_error *err)
+/* Each case into the group that it may stand in; false: no memory. */
+static bool collect(fm_groups *groups, const fm_result_files *results, const fm_groups_desc *desc,
+                    const fm_text_list *free_columns)
 {
-    fm_name_list free_columns = desc->free_columns;
-    if (free_columns.count < FM_NAME_LIST)
-        free_columns.names[free_columns.count++] = "k";
-    *groups = (fm_groups){ 0 };
     for (size_t i = 0; i < results->count; i++) {
         const fm_case_row *result = &results->cases[i];
         if (desc->filter != NULL && !desc->filter(result, desc->context))
             continue;
-        fm_group *group = find_group(groups, result, results->count, &free_columns);
-        if (group == NULL) {
-            groups_free(groups);
-            return fm_fail(err, FM_NO_MEMORY, "%zu cases", results->count);
-        }
+        fm_group *group = find_group(groups, result, results->count, free_columns);
+        if (group == NULL)
+            return false;
         group->cases[group->count++] = result;
+    }
+    return true;
+}
+
+fm_status groups_make(fm_groups *groups, const fm_result_files *results, const fm_groups_desc *desc,
+                      fm_error *err)
+{
+    fm_status status = FM_OK;
+    fm_text_list free_columns = { 0 };
+    *groups = (fm_groups){ 0 };
+    if (!text_list_add_all(&free_columns, desc->free_columns) ||
+        !text_list_add(&free_columns, "k") || !collect(groups, results, desc, &free_columns)) {
+        status = fm_fail(err, FM_NO_MEMORY, "%zu cases", results->count);
+        groups_free(groups);
     }
     for (size_t i = 0; i < groups->count; i++) {
         fm_group *group = &groups->groups[i];
@@ -170,7 +179,8 @@ fm_status groups_make(fm_groups *groups, const fm_result_files *results, const f
         describe(group, &free_columns);
         name_group(groups, i);
     }
-    return FM_OK;
+    text_list_free(&free_columns);
+    return status;
 }
 
 void groups_free(fm_groups *groups)

@@ -2,8 +2,8 @@
 #ifndef FM_GROUP_H
 #define FM_GROUP_H
 
+#include "base/text.h"
 #include "result_files.h"
-#include "yaml_fields.h"
 
 typedef struct fm_group {
     const fm_case_row **cases; /* by family, method, options, k; controls last; owned */
@@ -21,9 +21,10 @@ typedef struct fm_groups {
 typedef bool (*fm_case_filter)(const fm_case_row *result, const void *context);
 
 typedef struct fm_groups_desc {
-    fm_case_filter filter;     /* which cases to take; NULL: all */
-    const void *context;       /* of the filter */
-    fm_name_list free_columns; /* in which cases of a group may differ, beside k */
+    fm_case_filter filter; /* which cases to take; NULL: all */
+    const void *context;   /* of the filter */
+    const fm_text_list
+        *free_columns; /* in which cases of a group may differ, beside k; NULL: none */
 } fm_groups_desc;
 
 fm_status groups_make(fm_groups *groups, const fm_result_files *results, const fm_groups_desc *desc,
@@ -32,7 +33,7 @@ void groups_free(fm_groups *groups);
 
 /* "K+B-Array", with the options that tell two series of one method apart, but for those of
  * `without`, which may be NULL. */
-void group_series_title(char title[96], const fm_case_row *result, const fm_name_list *without);
+void group_series_title(char title[96], const fm_case_row *result, const fm_text_list *without);
 /* Procedural scenes with the printed properties of models that the papers do not share. */
 bool group_is_stand_in(const char *scene);
 /* Same method, version and options: points of one line. */

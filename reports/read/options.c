@@ -22,18 +22,17 @@ static bool next_pair(pair *next, const char **options)
     return next->length > 0;
 }
 
-static bool is_wanted(const pair *one, fm_options_sort sort, const fm_name_list *without)
+static bool is_wanted(const pair *one, fm_options_sort sort, const fm_text_list *without)
 {
     char name[64];
     snprintf(name, sizeof name, "%.*s", (int)one->key_length, one->text);
     const fm_key *key = key_find(name);
     const bool is_of_scene = key != NULL && key->scope == FM_SCOPE_SCENE;
-    return is_of_scene == (sort == FM_OPTIONS_OF_SCENE) &&
-           !(without != NULL && name_list_names(without, name));
+    return is_of_scene == (sort == FM_OPTIONS_OF_SCENE) && !text_list_has(without, name);
 }
 
 static bool next_wanted(pair *next, const char **options, fm_options_sort sort,
-                        const fm_name_list *without)
+                        const fm_text_list *without)
 {
     while (next_pair(next, options))
         if (is_wanted(next, sort, without))
@@ -53,7 +52,7 @@ void options_value(char value[FM_OPTION_VALUE_BYTES], const char *options, const
 }
 
 bool options_are_same(const char *a, const char *b, fm_options_sort sort,
-                      const fm_name_list *without)
+                      const fm_text_list *without)
 {
     pair of_a, of_b;
     for (;;) {
@@ -67,7 +66,7 @@ bool options_are_same(const char *a, const char *b, fm_options_sort sort,
 }
 
 void options_select(char chosen[FM_OPTIONS_TEXT_BYTES], const char *options, fm_options_sort sort,
-                    const fm_name_list *without)
+                    const fm_text_list *without)
 {
     pair one;
     size_t used = 0;

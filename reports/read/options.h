@@ -5,7 +5,7 @@
 
 #include <stdbool.h>
 
-#include "yaml_fields.h"
+#include "base/text.h"
 
 enum { FM_OPTIONS_TEXT_BYTES = 256, FM_OPTION_VALUE_BYTES = 128 };
 
@@ -17,10 +17,10 @@ void options_value(char value[FM_OPTION_VALUE_BYTES], const char *options, const
 /* Whether two cases have the same options of one sort, in the same order, but for the keys that
  * `without` names, which may be NULL. */
 bool options_are_same(const char *a, const char *b, fm_options_sort sort,
-                      const fm_name_list *without);
+                      const fm_text_list *without);
 
 /* Those options alone, with blanks between them; options that no longer fit are left out. */
 void options_select(char chosen[FM_OPTIONS_TEXT_BYTES], const char *options, fm_options_sort sort,
-                    const fm_name_list *without);
+                    const fm_text_list *without);
 
 #endif

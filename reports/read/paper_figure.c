@@ -74,7 +74,7 @@ static fm_status read_chart(fm_figure_chart *chart, const fm_yaml *map, const fm
         status = field_word(&kind, map, "kind", kinds, 4, at);
     if (status == FM_OK)
         status = field_list(&chart->ys, map, "y", at);
-    chart->y = chart->ys.count > 0 ? chart->ys.names[0] : "";
+    chart->y = chart->ys.count > 0 ? chart->ys.items[0] : "";
     if (status == FM_OK)
         status = field_text(&chart->ratio_to, map, "ratio_to", false, at);
     if (status == FM_OK)
@@ -84,7 +84,9 @@ static fm_status read_chart(fm_figure_chart *chart, const fm_yaml *map, const fm
     if (status == FM_OK)
         status = field_list(&chart->parts, map, "parts", at);
     if (status == FM_OK)
-        status = field_list(&chart->across, map, "across", at);
+        status = field_list(&chart->free_columns, map, "across", at);
+    if (status == FM_OK && !text_list_add(&chart->free_columns, chart->x))
+        status = fm_fail(at->err, FM_NO_MEMORY, "%s: chart %s", at->path, chart->id);
     if (status == FM_OK)
         status = read_sweep(chart, yaml_tree_find(map, "sweep"), at);
     if (status == FM_OK && chart->ratio_to[0] == '\0')
@@ -162,7 +164,7 @@ static fm_status read_paper_series(fm_paper_figure *figure, const fm_yaml *map, 
 static fm_status read_paper_points(fm_paper_figure *figure, const fm_yaml *map,
                                    const fm_yaml_place *at)
 {
-    fm_name_list parts;
+    fm_text_list parts = { 0 };
     if (map == NULL)
         return FM_OK;
     fm_status status = field_check_keys(map, "paper_points", KEYS(points_keys), at);
@@ -178,6 +180,7 @@ static fm_status read_paper_points(fm_paper_figure *figure, const fm_yaml *map,
             fm_fail(at->err, FM_INVALID, "%s:%u: series: a list is expected", at->path, map->line);
     for (size_t i = 0; status == FM_OK && series != NULL && i < series->count; i++)
         status = read_paper_series(figure, &series->items[i], parts.count, at);
+    text_list_free(&parts);
     return status;
 }
 
@@ -241,7 +244,16 @@ void paper_figure_close(fm_paper_figure *figure)
 {
     if (figure == NULL)
         return;
+    for (size_t i = 0; i < figure->chart_count; i++) {
+        text_list_free(&figure->charts[i].ys);
+        text_list_free(&figure->charts[i].parts);
+        text_list_free(&figure->charts[i].free_columns);
+    }
+    text_list_free(&figure->methods);
+    text_list_free(&figure->scenes);
+    text_list_free(&figure->feeds);
+    text_list_free(&figure->deviations);
+    claims_free(figure->claims, figure->claim_count);
     yaml_tree_free(figure->tree);
-    free(figure->claims);
     free(figure);
 }

@@ -75,12 +75,12 @@ typedef struct fm_figure_swept {
 
 typedef struct fm_figure_chart {
     const char *id, *title, *x;
-    const char *y;        /* the first of ys */
-    fm_name_list ys;      /* summed */
-    const char *ratio_to; /* NULL: none */
-    fm_name_list across;
+    const char *y;             /* the first of ys */
+    fm_text_list ys;           /* summed */
+    const char *ratio_to;      /* NULL: none */
+    fm_text_list free_columns; /* in which its cases differ: `across`, and x at last */
     fm_figure_kind kind;
-    fm_name_list parts;
+    fm_text_list parts;
     fm_figure_swept sweep[FM_FIGURE_SWEPT];
     size_t swept_count;
     bool with_paper, is_log;
@@ -94,9 +94,9 @@ typedef struct fm_paper_point {
 
 typedef struct fm_paper_figure {
     const char *id, *paper, *title, *source;
-    fm_name_list methods, scenes, feeds; /* of `run`; empty: all */
+    fm_text_list methods, scenes, feeds; /* of `run`; empty: all */
     bool has_table;                      /* of memory: its rows are in memory.csv */
-    fm_name_list deviations;
+    fm_text_list deviations;
     fm_figure_chart charts[FM_FIGURE_CHARTS];
     size_t chart_count;
     fm_paper_point points[FM_FIGURE_POINTS];

@@ -52,10 +52,10 @@ static bool same_column(const fm_case_row *a, const fm_case_row *b, size_t colum
 }
 
 /* n = r k layers grow with k: who may differ in k may differ in n. */
-static bool is_free(const fm_name_list *free_columns, const char *name, const fm_case_row *a)
+static bool is_free(const fm_text_list *free_columns, const char *name, const fm_case_row *a)
 {
-    return name_list_names(free_columns, name) ||
-           (strcmp(name, "n") == 0 && !isnan(a->r) && name_list_names(free_columns, "k"));
+    return text_list_has(free_columns, name) ||
+           (strcmp(name, "n") == 0 && !isnan(a->r) && text_list_has(free_columns, "k"));
 }
 
 /* A case that was never opened on its device has not got the device's name. */
@@ -65,12 +65,12 @@ static bool same_device(const fm_case_row *a, const fm_case_row *b)
            strcmp(a->device_name, b->device_name) == 0;
 }
 
-bool workload_same(const fm_case_row *a, const fm_case_row *b, const fm_name_list *free_columns)
+bool workload_same(const fm_case_row *a, const fm_case_row *b, const fm_text_list *free_columns)
 {
     for (size_t i = 0; i < WORKLOAD_COLUMNS; i++)
         if (!is_free(free_columns, workload_columns[i].name, a) && !same_column(a, b, i))
             return false;
-    return (name_list_names(free_columns, "device") || same_device(a, b)) &&
+    return (text_list_has(free_columns, "device") || same_device(a, b)) &&
            options_are_same(a->options, b->options, FM_OPTIONS_OF_SCENE, free_columns);
 }
 

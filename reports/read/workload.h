@@ -2,11 +2,11 @@
 #ifndef FM_WORKLOAD_H
 #define FM_WORKLOAD_H
 
+#include "base/text.h"
 #include "result_files.h"
-#include "yaml_fields.h"
 
 /* Same scene, size, fragments, device and feed, but for the free columns. */
-bool workload_same(const fm_case_row *a, const fm_case_row *b, const fm_name_list *free_columns);
+bool workload_same(const fm_case_row *a, const fm_case_row *b, const fm_text_list *free_columns);
 
 /* ", n 128, k 8": the columns in which the cases differ that takes[results->count] marks. */
 void workload_name(char *name, size_t room, const fm_result_files *results, const bool *takes,

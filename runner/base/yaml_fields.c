@@ -3,21 +3,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/text.h"
-
-bool name_list_names(const fm_name_list *list, const char *name)
-{
-    for (size_t i = 0; i < list->count; i++)
-        if (strcmp(list->names[i], name) == 0)
-            return true;
-    return false;
-}
-
-bool name_list_has(const fm_name_list *list, const char *name)
-{
-    return list->count == 0 || name_list_names(list, name);
-}
-
 /* `unknown`: what is wrong, in words. */
 static fm_status fail_nearest(const fm_yaml_place *at, uint32_t line, const char *unknown,
                               const char *nearest)
@@ -71,27 +56,32 @@ fm_status field_number(double *value, const fm_yaml *map, const char *key, const
     return FM_OK;
 }
 
-fm_status field_list(fm_name_list *list, const fm_yaml *map, const char *key,
+static fm_status add_text(fm_text_list *list, const fm_yaml *value, const char *key,
+                          const fm_yaml_place *at)
+{
+    if (value->kind != FM_YAML_SCALAR)
+        return fm_fail(at->err, FM_INVALID, "%s:%u: %s: a text is expected", at->path, value->line,
+                       key);
+    if (!text_list_add(list, value->text))
+        return fm_fail(at->err, FM_NO_MEMORY, "%s:%u: %s", at->path, value->line, key);
+    return FM_OK;
+}
+
+fm_status field_list(fm_text_list *list, const fm_yaml *map, const char *key,
                      const fm_yaml_place *at)
 {
     const fm_yaml *value = yaml_tree_find(map, key);
-    *list = (fm_name_list){ 0 };
+    fm_status status = FM_OK;
     if (value == NULL)
         return FM_OK;
-    if (value->kind == FM_YAML_SCALAR) {
-        list->names[list->count++] = value->text;
-        return FM_OK;
-    }
-    if (value->kind != FM_YAML_LIST || value->count > FM_NAME_LIST)
-        return fm_fail(at->err, FM_INVALID, "%s:%u: %s: a list of at most %d texts is expected",
-                       at->path, value->line, key, FM_NAME_LIST);
-    for (size_t i = 0; i < value->count; i++) {
-        if (value->items[i].kind != FM_YAML_SCALAR)
-            return fm_fail(at->err, FM_INVALID, "%s:%u: %s: a text is expected", at->path,
-                           value->items[i].line, key);
-        list->names[list->count++] = value->items[i].text;
-    }
-    return FM_OK;
+    if (value->kind == FM_YAML_SCALAR)
+        return add_text(list, value, key, at);
+    if (value->kind != FM_YAML_LIST)
+        return fm_fail(at->err, FM_INVALID, "%s:%u: %s: a list of texts is expected", at->path,
+                       value->line, key);
+    for (size_t i = 0; i < value->count && status == FM_OK; i++)
+        status = add_text(list, &value->items[i], key, at);
+    return status;
 }
 
 fm_status field_word(int *index, const fm_yaml *map, const char *key, const char *const *words,

@@ -4,20 +4,9 @@
 
 #include <stdbool.h>
 
-#include "base/error.h"
-#include "base/yaml_tree.h"
-
-enum { FM_NAME_LIST = 64 };
-
-/* Borrowed texts. */
-typedef struct fm_name_list {
-    const char *names[FM_NAME_LIST];
-    size_t count;
-} fm_name_list;
-
-/* An empty list holds every name. */
-bool name_list_has(const fm_name_list *list, const char *name);
-bool name_list_names(const fm_name_list *list, const char *name); /* an empty one holds none */
+#include "error.h"
+#include "text.h"
+#include "yaml_tree.h"
 
 /* The file that is being read, and where its errors go. */
 typedef struct fm_yaml_place {
@@ -35,8 +24,8 @@ fm_status field_text(const char **text, const fm_yaml *map, const char *key, boo
                      const fm_yaml_place *at);
 /* A number; *value stays when the key is missing. */
 fm_status field_number(double *value, const fm_yaml *map, const char *key, const fm_yaml_place *at);
-/* Texts, or one text; missing: an empty list. */
-fm_status field_list(fm_name_list *list, const fm_yaml *map, const char *key,
+/* Texts, or one text, added to the list; missing: none. FM_NO_MEMORY. The caller frees the list. */
+fm_status field_list(fm_text_list *list, const fm_yaml *map, const char *key,
                      const fm_yaml_place *at);
 /* One of these words, as its index; a missing key is the first. */
 fm_status field_word(int *index, const fm_yaml *map, const char *key, const char *const *words,

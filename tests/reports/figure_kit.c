@@ -26,7 +26,7 @@ void fixture_groups(fm_groups *groups, const fixture *in, const fm_figure_chart 
     const fm_figure_cases cases = figure_cases(in->results, in->figure);
     const fm_groups_desc desc = { .filter = figure_takes_case,
                                   .context = &cases,
-                                  .free_columns = figure_free_columns(chart) };
+                                  .free_columns = &chart->free_columns };
     assert_int_equal(groups_make(groups, in->results, &desc, NULL), FM_OK);
 }
 

@@ -230,9 +230,10 @@ static void another_machine_draws_thin_curves(void **state)
     open_fixture(&with, "figure,case_id\nf-1,c0\nf-1,c3\n");
     fixture_groups(&groups, &with, &with.figure->charts[1]);
     const fm_figure_source own = { with.results, &groups.groups[0] };
-    const fm_figure_source other = {
-        with.results, figure_reference_group(&groups, &groups.groups[0], &with.figure->charts[1])
-    };
+    fm_figure_source other = { .results = with.results };
+    assert_int_equal(
+        figure_reference_group(&other.group, &groups, own.group, &with.figure->charts[1], &err),
+        FM_OK);
     assert_ptr_equal(other.group, &groups.groups[0]);
     assert_int_equal(
         figure_chart_make(&chart, with.figure, &with.figure->charts[1], &own, &other, &err), FM_OK);

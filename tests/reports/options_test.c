@@ -32,8 +32,10 @@ static void keys_of_the_scene_are_apart_from_the_methods_own(void **state)
     assert_true(
         options_are_same(options, "lock=spin layout=image depths=ulp", FM_OPTIONS_OWN, NULL));
     assert_false(options_are_same(options, "depths=ulp", FM_OPTIONS_OF_SCENE, NULL));
-    const fm_name_list without = { .names = { "layout" }, .count = 1 };
+    fm_text_list without = { 0 };
+    assert_true(text_list_add(&without, "layout"));
     assert_true(options_are_same(options, "lock=spin", FM_OPTIONS_OWN, &without));
+    text_list_free(&without);
 }
 
 /* Texts of 256 bytes were compared once, and longer ones taken for the same. */

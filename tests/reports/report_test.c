@@ -314,7 +314,7 @@ static void points_of_the_paper_are_sums_of_parts(void **state)
     assert_string_equal(figure->id, "kplus-05");
     assert_int_equal(figure->point_count, 40);
     assert_true(fabs(figure->points[0].value - 4.9) < 1e-9);
-    assert_true(name_list_has(&figure->methods, "kplus-array"));
+    assert_true(text_list_has(&figure->methods, "kplus-array"));
     paper_figure_close(figure);
 }
 
