@@ -5,10 +5,6 @@
 
 #include "base/text.h"
 
-static const char *const figure_keys[] = { "id",           "paper",      "title", "source",
-                                           "run",          "smoke",      "large", "charts",
-                                           "paper_points", "deviations", "table", "claims",
-                                           "pictures" };
 static const char *const chart_keys[] = { "id",      "kind",   "title",    "x",
                                           "y",       "parts",  "ratio_to", "with_paper",
                                           "y_scale", "across", "sweep" };
@@ -184,58 +180,53 @@ static fm_status read_paper_points(fm_paper_figure *figure, const fm_yaml *map,
     return status;
 }
 
-static fm_status read_head(fm_paper_figure *figure, const fm_yaml *root, const fm_yaml_place *at)
+/* Of a `run` of several blocks figures.csv tells which cases are the figure's. */
+static fm_status read_run(fm_paper_figure *figure, const fm_yaml *run, const fm_yaml_place *at)
 {
-    const fm_yaml *run = yaml_tree_find(root, "run");
-    fm_status status = field_check_keys(root, "a figure", KEYS(figure_keys), at);
+    if (run == NULL || run->kind == FM_YAML_LIST)
+        return FM_OK;
+    fm_status status = field_list(&figure->methods, run, "methods", at);
     if (status == FM_OK)
-        status = field_text(&figure->id, root, "id", true, at);
-    if (status == FM_OK &&
-        strspn(figure->id, "abcdefghijklmnopqrstuvwxyz0123456789-") != strlen(figure->id))
-        return fm_fail(at->err, FM_INVALID, "%s: id \"%s\": lower case, digits and hyphens only",
-                       at->path, figure->id);
-    if (status == FM_OK)
-        status = field_text(&figure->paper, root, "paper", true, at);
-    if (status == FM_OK)
-        status = field_text(&figure->title, root, "title", true, at);
-    if (status == FM_OK)
-        status = field_text(&figure->source, root, "source", false, at);
-    if (status == FM_OK)
-        status = field_list(&figure->deviations, root, "deviations", at);
-    if (status == FM_OK && run != NULL && run->kind == FM_YAML_LIST)
-        return FM_OK; /* figures.csv tells */
-    if (status == FM_OK && run != NULL)
-        status = field_list(&figure->methods, run, "methods", at);
-    if (status == FM_OK && run != NULL)
         status = field_list(&figure->scenes, run, "scenes", at);
-    if (status == FM_OK && run != NULL)
+    if (status == FM_OK)
         status = field_list(&figure->feeds, run, "feeds", at);
+    return status;
+}
+
+static fm_status read_parts(fm_paper_figure *figure, const fm_yaml_place *at)
+{
+    const fm_figure_file *file = &figure->file;
+    fm_status status = field_list(&figure->deviations, file->tree, "deviations", at);
+    if (status == FM_OK)
+        status = read_run(figure, file->run, at);
+    if (status == FM_OK && !(file->charts == NULL && file->table != NULL))
+        status = read_charts(figure, file->charts, at);
+    if (status == FM_OK)
+        status = read_paper_points(figure, file->paper_points, at);
+    if (status == FM_OK)
+        status = claims_read(&figure->claims, &figure->claim_count, file->claims, at);
     return status;
 }
 
 fm_status paper_figure_read(fm_paper_figure **figure, const char *path, fm_error *err)
 {
-    fm_yaml_place at = { .path = path, .err = err };
+    const fm_yaml_place at = { .path = path, .err = err };
     *figure = NULL;
     fm_paper_figure *made = calloc(1, sizeof *made);
     if (made == NULL)
         return fm_fail(err, FM_NO_MEMORY, "%s", path);
-    fm_status status = yaml_tree_read(&made->tree, path, err);
+    fm_status status = figure_file_read(&made->file, path, err);
     if (status == FM_OK)
-        status = read_head(made, made->tree, &at);
-    const fm_yaml *charts = status == FM_OK ? yaml_tree_find(made->tree, "charts") : NULL;
-    made->has_table = status == FM_OK && yaml_tree_find(made->tree, "table") != NULL;
-    if (status == FM_OK && !(charts == NULL && made->has_table))
-        status = read_charts(made, charts, &at);
-    if (status == FM_OK)
-        status = read_paper_points(made, yaml_tree_find(made->tree, "paper_points"), &at);
-    if (status == FM_OK)
-        status = claims_read(&made->claims, &made->claim_count,
-                             yaml_tree_find(made->tree, "claims"), &at);
+        status = read_parts(made, &at);
     if (status != FM_OK) {
         paper_figure_close(made);
         return status;
     }
+    made->id = made->file.id;
+    made->paper = made->file.paper;
+    made->title = made->file.title;
+    made->source = made->file.source;
+    made->has_table = made->file.table != NULL;
     *figure = made;
     return FM_OK;
 }
@@ -254,6 +245,6 @@ void paper_figure_close(fm_paper_figure *figure)
     text_list_free(&figure->feeds);
     text_list_free(&figure->deviations);
     claims_free(figure->claims, figure->claim_count);
-    yaml_tree_free(figure->tree);
+    figure_file_close(&figure->file);
     free(figure);
 }

@@ -1,18 +1,5 @@
-/* reports/figures/ID.yml: one figure of a paper as data.
+/* What a report needs of a figure's file (model/figure_file.h): its charts and the paper's points.
  *
- *   id: kplus-05               the file's name
- *   paper: kplus
- *   title: ...
- *   source: where in the paper, and how its values were read
- *   run:                       what `fragmark reproduce` measures: keys of a spec file, or a list
- *                              of such blocks
- *     methods: [kplus-array, ...]
- *     scenes: [layers]
- *     feeds: [raster]
- *     k: [4, 8]
- *   smoke: { n: 32 }           what --smoke changes in each block of `run`
- *   large: [blocks]            what --large measures too
- *   pictures: true             pictures and heat maps of its cases are kept
  *   charts:                    in the report's order
  *     - id: time               part of the file name charts/ID-time-*.svg
  *       kind: lines            or stacked-bars, grouped-bars, tornado
@@ -41,9 +28,6 @@
  *         title: Array         as the paper's legend has it
  *         at: { n: 16 }        of which workload, where the figure has several
  *         points: [[4, 3.9, 0.2], ...]   x, then one value a part
- *   claims: ...                see claim.h
- *   deviations: [sentences]
- *   table: ...                 memory by formula, see memory_table.h; charts may be missing
  *
  * Unknown keys are refused with file, line and the nearest known one. */
 #ifndef FM_PAPER_FIGURE_H
@@ -53,6 +37,7 @@
 #include <stddef.h>
 
 #include "claim.h"
+#include "model/figure_file.h"
 
 enum {
     FM_FIGURE_CHARTS = 8,
@@ -104,7 +89,7 @@ typedef struct fm_paper_figure {
     const char *points_metric;
     fm_claim *claims; /* owned */
     size_t claim_count;
-    fm_yaml *tree; /* holds all texts */
+    fm_figure_file file; /* owned; holds all texts */
 } fm_paper_figure;
 
 /* FM_IO, FM_NO_MEMORY; FM_INVALID: naming file and line. The caller closes *figure. */

@@ -2,8 +2,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/yaml_tree.h"
 #include "cli.h"
+#include "model/figure_file.h"
 
 static int compare_ids(const void *left, const void *right)
 {
@@ -22,32 +22,26 @@ static bool has_figure(const fm_figure_list *list, const char *id)
 /* A figure whose file is damaged is listed too: reproducing it says what is wrong. */
 static void read_head(fm_figure *figure)
 {
-    fm_yaml *root = NULL;
-    fm_error below = { 0 };
-    if (yaml_tree_read(&root, figure->path, &below) == FM_OK) {
-        const fm_yaml *title = yaml_tree_find(root, "title");
-        if (title != NULL && title->kind == FM_YAML_SCALAR)
-            snprintf(figure->title, sizeof figure->title, "%s", title->text);
-        const fm_yaml *pictures = yaml_tree_find(root, "pictures");
-        figure->has_pictures =
-            pictures != NULL && pictures->text != NULL && strcmp(pictures->text, "true") == 0;
-    }
-    yaml_tree_free(root);
+    fm_figure_file file;
+    fm_error ignored = { 0 };
+    figure_file_read(&file, figure->path, &ignored);
+    snprintf(figure->title, sizeof figure->title, "%s", file.title);
+    figure->has_pictures = file.keeps_pictures;
+    figure_file_close(&file);
 }
 
 fm_status figure_add_claims(fm_names *names, const fm_figure *figure, fm_error *err)
 {
-    fm_yaml *root = NULL;
-    fm_error below = { 0 };
+    fm_figure_file file;
+    fm_error ignored = { 0 };
     fm_status status = FM_OK;
-    const bool is_read = yaml_tree_read(&root, figure->path, &below) == FM_OK;
-    const fm_yaml *claims = is_read ? yaml_tree_find(root, "claims") : NULL;
-    for (size_t i = 0; claims != NULL && i < claims->count && status == FM_OK; i++) {
-        const fm_yaml *id = yaml_tree_find(&claims->items[i], "id");
+    figure_file_read(&file, figure->path, &ignored);
+    for (size_t i = 0; file.claims != NULL && i < file.claims->count && status == FM_OK; i++) {
+        const fm_yaml *id = yaml_tree_find(&file.claims->items[i], "id");
         if (id != NULL && id->text != NULL)
             status = names_add(names, id->text, err);
     }
-    yaml_tree_free(root);
+    figure_file_close(&file);
     return status;
 }
 
@@ -221,19 +215,17 @@ static fm_status write_blocks(fm_names *paths, const char *folder, const fm_figu
 fm_status figure_write_specs(fm_names *paths, const char *folder, const fm_figure *figure,
                              fm_figure_size size, fm_error *err)
 {
-    fm_yaml *root = NULL;
-    fm_status status = yaml_tree_read(&root, figure->path, err);
-    if (status != FM_OK)
-        return status;
-    const fm_yaml *run = yaml_tree_find(root, "run");
-    const fm_yaml *smoke = size == FM_FIGURE_SMOKE ? yaml_tree_find(root, "smoke") : NULL;
-    status = require_map(smoke, "smoke", figure->path, err);
-    if (status == FM_OK && run == NULL)
+    fm_figure_file file;
+    fm_status status = figure_file_read(&file, figure->path, err);
+    const fm_yaml *smoke = size == FM_FIGURE_SMOKE ? file.smoke : NULL;
+    if (status == FM_OK)
+        status = require_map(smoke, "smoke", figure->path, err);
+    if (status == FM_OK && file.run == NULL)
         status = fm_fail(err, FM_UNSUPPORTED, "%s: has no 'run': nothing to measure", figure->path);
     if (status == FM_OK)
-        status = write_blocks(paths, folder, figure, run, smoke, err);
+        status = write_blocks(paths, folder, figure, file.run, smoke, err);
     if (status == FM_OK && size == FM_FIGURE_LARGE)
-        status = write_blocks(paths, folder, figure, yaml_tree_find(root, "large"), NULL, err);
-    yaml_tree_free(root);
+        status = write_blocks(paths, folder, figure, file.large, NULL, err);
+    figure_file_close(&file);
     return status;
 }

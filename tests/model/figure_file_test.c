@@ -1,0 +1,90 @@
+/* The head of a figure's file, which both programs read. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "base/text.h"
+#include "model/figure_file.h"
+
+/* Reads the text as a figure's file, which the caller closes. */
+static fm_status read_text(fm_figure_file *file, const char *text, fm_error *err)
+{
+    char path[] = "/tmp/fragmark-figure-XXXXXX";
+    const int descriptor = mkstemp(path);
+    assert_true(descriptor >= 0);
+    close(descriptor);
+    assert_int_equal(text_write_file(path, text, strlen(text), NULL), FM_OK);
+    const fm_status status = figure_file_read(file, path, err);
+    unlink(path);
+    return status;
+}
+
+static void figure_file_hands_out_its_parts(void **state)
+{
+    (void)state;
+    fm_figure_file file;
+    fm_error err;
+    assert_int_equal(read_text(&file,
+                               "id: f-1\npaper: f\ntitle: t\npictures: true\n"
+                               "run: { k: 4 }\nclaims: [{ id: F-1 }]\n",
+                               &err),
+                     FM_OK);
+    assert_string_equal(file.id, "f-1");
+    assert_string_equal(file.source, "");
+    assert_true(file.keeps_pictures);
+    assert_non_null(yaml_tree_find(file.run, "k"));
+    assert_int_equal(file.claims->count, 1);
+    assert_null(file.smoke);
+    figure_file_close(&file);
+}
+
+static void figure_file_refuses_with_the_line(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *says;
+    } damaged[] = {
+        { "id: f\npaper: f\ntitle: t\nrnu: {}\n", ":4: unknown key \"rnu\" of a figure" },
+        { "id: f\npaper: f\n", ":1: title is missing" },
+        { "id: F\npaper: f\ntitle: t\n", "id \"F\": lower case" },
+        { "id: f\npaper: f\ntitle: t\npictures: yes\n", ":4: unknown pictures \"yes\"" },
+    };
+    for (size_t i = 0; i < sizeof damaged / sizeof damaged[0]; i++) {
+        fm_figure_file file;
+        fm_error err = { 0 };
+        assert_int_equal(read_text(&file, damaged[i].text, &err), FM_INVALID);
+        if (strstr(err.message, damaged[i].says) == NULL)
+            fail_msg("\"%s\" is not in \"%s\"", damaged[i].says, err.message);
+        figure_file_close(&file);
+    }
+}
+
+static void a_damaged_figure_still_tells_its_title(void **state)
+{
+    (void)state;
+    fm_figure_file file;
+    fm_error err;
+    assert_int_equal(read_text(&file, "title: t\nrnu: {}\n", &err), FM_INVALID);
+    assert_string_equal(file.title, "t");
+    assert_string_equal(file.id, "");
+    figure_file_close(&file);
+    assert_int_equal(figure_file_read(&file, "/nowhere/f.yml", &err), FM_IO);
+    assert_string_equal(file.title, "");
+    figure_file_close(&file);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(figure_file_hands_out_its_parts),
+        cmocka_unit_test(figure_file_refuses_with_the_line),
+        cmocka_unit_test(a_damaged_figure_still_tells_its_title),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
