@@ -36,7 +36,7 @@ static bool test_matches(const fm_claim_test *test, const char *cell)
     return false;
 }
 
-bool match_row(const fm_selection *selection, const fm_claim_rows *rows, size_t row)
+bool match_row(const fm_claim_selection *selection, const fm_claim_rows *rows, size_t row)
 {
     const fm_table *table = rows->results->summary;
     for (size_t i = 0; i < selection->test_count; i++) {
@@ -63,7 +63,7 @@ bool match_takes(const fm_claim *claim, const fm_claim_rows *rows, size_t row)
            strcmp(result->feed, "compute-adjacent") == 0;
 }
 
-bool match_memory_row(const fm_selection *selection, const fm_claim_rows *rows, size_t row)
+bool match_memory_row(const fm_claim_selection *selection, const fm_claim_rows *rows, size_t row)
 {
     const fm_table *table = rows->memory;
     if (strcmp(table_cell(table, row, table_column(table, "figure")), rows->figure) != 0)

@@ -5,9 +5,9 @@
 #include "points.h"
 
 /* Row of summary.csv: all tests of the selection are met. */
-bool match_row(const fm_selection *selection, const fm_claim_rows *rows, size_t row);
+bool match_row(const fm_claim_selection *selection, const fm_claim_rows *rows, size_t row);
 /* Row of memory.csv: the same, and it belongs to the figure. */
-bool match_memory_row(const fm_selection *selection, const fm_claim_rows *rows, size_t row);
+bool match_memory_row(const fm_claim_selection *selection, const fm_claim_rows *rows, size_t row);
 /* The row belongs to the figure and its device can say something about the claim. */
 bool match_takes(const fm_claim *claim, const fm_claim_rows *rows, size_t row);
 

@@ -35,7 +35,7 @@ static fm_interval widened(fm_interval value)
     return value;
 }
 
-static fm_interval measured_value(bool *has_few, const fm_selection *selection,
+static fm_interval measured_value(bool *has_few, const fm_claim_selection *selection,
                                   const fm_claim_rows *rows, const fm_case_row *result)
 {
     size_t samples = 0;
@@ -51,7 +51,7 @@ static fm_interval measured_value(bool *has_few, const fm_selection *selection,
     return widened(value);
 }
 
-static fm_interval formula_value(const fm_selection *selection, const fm_case_row *result)
+static fm_interval formula_value(const fm_claim_selection *selection, const fm_case_row *result)
 {
     const double pixels = result->width_px * result->height_px;
     const double factors[FM_FORMULA_TERMS] = { 1.0, pixels, pixels * result->k, pixels * result->n,
@@ -91,7 +91,7 @@ static const char *why_missing(const fm_case_row *result)
 }
 
 /* Same method and options, but for what the other selection names itself. */
-static bool is_own_partner(const fm_selection *selection, const fm_case_row *of,
+static bool is_own_partner(const fm_claim_selection *selection, const fm_case_row *of,
                            const fm_case_row *other)
 {
     const fm_text_list *own = &selection->own_columns;
@@ -102,7 +102,7 @@ static bool is_own_partner(const fm_selection *selection, const fm_case_row *of,
 }
 
 /* Of several partners the greatest where the selection says so, else the least. */
-static bool is_taken(const fm_selection *selection, double value, double best)
+static bool is_taken(const fm_claim_selection *selection, double value, double best)
 {
     return selection->take == FM_TAKE_GREATEST ? value > best : value < best;
 }
@@ -116,7 +116,7 @@ typedef struct partner {
 } partner;
 
 /* The row of `selection` for the workload of `subject`. */
-static partner find_partner(const points_job *job, const fm_selection *selection,
+static partner find_partner(const points_job *job, const fm_claim_selection *selection,
                             const fm_case_row *subject)
 {
     partner best = { 0 };
@@ -139,7 +139,7 @@ static partner find_partner(const points_job *job, const fm_selection *selection
 
 /* One operand for the point's row; false: there is none. */
 static bool operand(fm_interval *value, fm_claim_point *point, points_job *job,
-                    const fm_selection *selection)
+                    const fm_claim_selection *selection)
 {
     if (selection->is_formula) {
         *value = formula_value(selection, point->result);
@@ -165,7 +165,7 @@ static double x_of(const points_job *job, const fm_case_row *result)
     return result_files_place(job->rows->results, result, job->claim->along);
 }
 
-static bool evaluate(fm_claim_point *point, points_job *job, const fm_selection *of)
+static bool evaluate(fm_claim_point *point, points_job *job, const fm_claim_selection *of)
 {
     fm_interval other = { 0 };
     const fm_claim *claim = job->claim;
@@ -197,7 +197,7 @@ static bool evaluate(fm_claim_point *point, points_job *job, const fm_selection 
 }
 
 /* With take: least or greatest, one point a workload. */
-static void add_point(points_job *job, const fm_selection *of, const fm_claim_point *point)
+static void add_point(points_job *job, const fm_claim_selection *of, const fm_claim_point *point)
 {
     fm_claim_points *to = job->points;
     for (size_t i = 0; i < to->count && of->take != FM_TAKE_EACH; i++) {
@@ -216,7 +216,7 @@ static void add_point(points_job *job, const fm_selection *of, const fm_claim_po
 
 static void add_summary_points(points_job *job, size_t selection)
 {
-    const fm_selection *of = &job->claim->of[selection];
+    const fm_claim_selection *of = &job->claim->of[selection];
     for (size_t i = 0; i < job->rows->results->count; i++) {
         fm_claim_point point = { .result = &job->rows->results->cases[i], .selection = selection };
         if (match_takes(job->claim, job->rows, i) && match_row(of, job->rows, i) &&
@@ -227,7 +227,8 @@ static void add_summary_points(points_job *job, size_t selection)
 
 /* ---- memory.csv ---- */
 
-static double memory_value(const fm_selection *selection, const fm_claim_rows *rows, size_t row)
+static double memory_value(const fm_claim_selection *selection, const fm_claim_rows *rows,
+                           size_t row)
 {
     double sum = 0.0;
     for (size_t i = 0; i < selection->metrics.count; i++) {
@@ -241,7 +242,8 @@ static double memory_value(const fm_selection *selection, const fm_claim_rows *r
 
 /* Of the same column of the paper's table, unless the selection names one; of the same row, if it
  * names nothing. */
-static double memory_partner(const fm_selection *selection, const fm_claim_rows *rows, size_t row)
+static double memory_partner(const fm_claim_selection *selection, const fm_claim_rows *rows,
+                             size_t row)
 {
     const size_t workload = table_column(rows->memory, "workload");
     const fm_text_list *own = &selection->own_columns;
@@ -263,7 +265,7 @@ static double memory_partner(const fm_selection *selection, const fm_claim_rows 
 
 static void add_memory_points(points_job *job, size_t selection)
 {
-    const fm_selection *of = &job->claim->of[selection];
+    const fm_claim_selection *of = &job->claim->of[selection];
     const fm_claim_rows *rows = job->rows;
     for (size_t row = 0; rows->memory != NULL && row < rows->memory->row_count; row++) {
         if (!match_memory_row(of, rows, row))

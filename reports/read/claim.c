@@ -39,7 +39,8 @@ static const struct {
 static const char *const formula_keys[FM_FORMULA_TERMS] = { "constant", "per_pixel", "per_pixel_k",
                                                             "per_pixel_n", "per_fragment" };
 
-static fm_status read_formula(fm_selection *selection, const fm_yaml *map, const fm_yaml_place *at)
+static fm_status read_formula(fm_claim_selection *selection, const fm_yaml *map,
+                              const fm_yaml_place *at)
 {
     fm_status status = field_check_keys(map, "formula", WORDS(formula_keys), at);
     selection->is_formula = true;
@@ -58,7 +59,8 @@ static bool is_reserved(const char *key)
 }
 
 /* A test replaces the one that was taken over for the same key. */
-static fm_status add_test(fm_selection *selection, const fm_yaml *value, const fm_yaml_place *at)
+static fm_status add_test(fm_claim_selection *selection, const fm_yaml *value,
+                          const fm_yaml_place *at)
 {
     size_t i = 0;
     while (i < selection->test_count && strcmp(selection->tests[i].key, value->key) != 0)
@@ -80,8 +82,8 @@ static fm_status add_test(fm_selection *selection, const fm_yaml *value, const f
     return FM_OK;
 }
 
-static fm_status read_metrics(fm_selection *selection, const fm_selection *from, const fm_yaml *map,
-                              const fm_yaml_place *at)
+static fm_status read_metrics(fm_claim_selection *selection, const fm_claim_selection *from,
+                              const fm_yaml *map, const fm_yaml_place *at)
 {
     const fm_status status = field_list(&selection->metrics, map, "metric", at);
     if (status != FM_OK || selection->metrics.count > 0)
@@ -93,13 +95,13 @@ static fm_status read_metrics(fm_selection *selection, const fm_selection *from,
 }
 
 /* `from`: what is taken over; NULL for `of`. */
-static fm_status read_selection(fm_selection *selection, const fm_selection *from,
+static fm_status read_selection(fm_claim_selection *selection, const fm_claim_selection *from,
                                 const fm_yaml *map, const fm_yaml_place *at)
 {
     static const char *const takes[] = { "each", "least", "greatest" };
     static const char *const tables[] = { "summary", "memory" };
     int take = 0, table = 0;
-    *selection = from != NULL ? *from : (fm_selection){ 0 };
+    *selection = from != NULL ? *from : (fm_claim_selection){ 0 };
     selection->own_columns = selection->metrics = (fm_text_list){ 0 }; /* not to be owned twice */
     if (map->kind != FM_YAML_MAP)
         return fm_fail(at->err, FM_INVALID, "%s:%u: a selection has keys and values", at->path,
@@ -109,14 +111,14 @@ static fm_status read_selection(fm_selection *selection, const fm_selection *fro
         status = field_word(&take, map, "take", WORDS(takes), at);
     if (status == FM_OK && yaml_tree_find(map, "table") != NULL) {
         status = field_word(&table, map, "table", WORDS(tables), at);
-        selection->table = (fm_selection_table)table;
+        selection->table = (fm_claim_table)table;
     }
     if (status == FM_OK && yaml_tree_find(map, "formula") != NULL)
         status = read_formula(selection, yaml_tree_find(map, "formula"), at);
     for (size_t i = 0; i < map->count && status == FM_OK; i++)
         if (!is_reserved(map->items[i].key))
             status = add_test(selection, &map->items[i], at);
-    selection->take = (fm_take)take;
+    selection->take = (fm_claim_take)take;
     return status;
 }
 
@@ -140,7 +142,7 @@ static fm_status read_of(fm_claim *claim, const fm_yaml *map, const fm_yaml_plac
     return status;
 }
 
-static fm_status read_operand(fm_selection *selection, bool *has, const fm_claim *claim,
+static fm_status read_operand(fm_claim_selection *selection, bool *has, const fm_claim *claim,
                               const fm_yaml *map, const char *key, const fm_yaml_place *at)
 {
     const fm_yaml *operand = yaml_tree_find(map, key);
@@ -296,7 +298,7 @@ fm_status claims_read(fm_claim **claims, size_t *count, const fm_yaml *list,
     return FM_OK;
 }
 
-static void selection_free(fm_selection *selection)
+static void selection_free(fm_claim_selection *selection)
 {
     text_list_free(&selection->own_columns);
     text_list_free(&selection->metrics);

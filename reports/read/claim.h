@@ -77,8 +77,8 @@ typedef enum fm_claim_form {
 } fm_claim_form;
 
 typedef enum fm_claim_where { FM_CLAIM_ANY_DEVICE, FM_CLAIM_GPU, FM_CLAIM_HAZARDS } fm_claim_where;
-typedef enum fm_take { FM_TAKE_EACH, FM_TAKE_LEAST, FM_TAKE_GREATEST } fm_take;
-typedef enum fm_selection_table { FM_SELECT_SUMMARY, FM_SELECT_MEMORY } fm_selection_table;
+typedef enum fm_claim_take { FM_TAKE_EACH, FM_TAKE_LEAST, FM_TAKE_GREATEST } fm_claim_take;
+typedef enum fm_claim_table { FM_SELECT_SUMMARY, FM_SELECT_MEMORY } fm_claim_table;
 
 typedef struct fm_claim_test {
     const char *key;
@@ -87,25 +87,25 @@ typedef struct fm_claim_test {
 
 enum { FM_FORMULA_TERMS = 5 };
 
-typedef struct fm_selection {
+typedef struct fm_claim_selection {
     fm_claim_test tests[FM_CLAIM_TESTS];
     size_t test_count;
     fm_text_list own_columns; /* keys of the tests that are not taken over from `of` */
     fm_text_list metrics;     /* summed */
-    fm_take take;
-    fm_selection_table table;
+    fm_claim_take take;
+    fm_claim_table table;
     bool is_formula;
     double formula[FM_FORMULA_TERMS]; /* constant, per pixel, pixel k, pixel n, fragment */
-} fm_selection;
+} fm_claim_selection;
 
 typedef struct fm_claim {
     const char *id, *text, *source, *why, *paper, *plot;
     fm_claim_where where;
     bool is_required;
     fm_claim_form form;
-    fm_selection of[FM_CLAIM_SELECTIONS]; /* one, but for `order` */
+    fm_claim_selection of[FM_CLAIM_SELECTIONS]; /* one, but for `order` */
     size_t of_count;
-    fm_selection minus, over, over_minus;
+    fm_claim_selection minus, over, over_minus;
     bool has_minus, has_over, has_over_minus;
     const char *along;           /* "": none */
     fm_text_list free_columns;   /* in which points of a curve differ: `across`, and along */

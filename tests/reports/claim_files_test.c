@@ -123,7 +123,7 @@ static bool is_axis(const char *text, const char *key)
 }
 
 static void expect_names(const project *of, const figure_file *file, const fm_claim *claim,
-                         const fm_selection *selection)
+                         const fm_claim_selection *selection)
 {
     for (size_t i = 0; i < selection->test_count; i++) {
         const char *key = selection->tests[i].key;
