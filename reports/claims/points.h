@@ -1,18 +1,9 @@
-/* Selections become points: values with intervals, one for each row of `of`. */
+/* Points of a claim: values with intervals, one for each row of `of`, and how they relate. */
 #ifndef FM_CLAIM_POINTS_H
 #define FM_CLAIM_POINTS_H
 
-#include "read/claim.h"
+#include "match.h"
 #include "read/interval.h"
-#include "read/result_files.h"
-
-/* Where rows come from. */
-typedef struct fm_claim_rows {
-    const fm_result_files *results;
-    const bool *takes;      /* [results->count]: the figure's own cases; NULL: all */
-    const fm_table *memory; /* rows of memory.csv; NULL: none */
-    const char *figure;     /* id, for rows of memory.csv */
-} fm_claim_rows;
 
 typedef struct fm_claim_point {
     fm_interval value;
@@ -25,15 +16,17 @@ typedef struct fm_claim_point {
 } fm_claim_point;
 
 typedef struct fm_claim_points {
-    fm_claim_point *points; /* owned; sorted by series, then x */
-    size_t count;
+    fm_claim_point *points; /* owned */
+    size_t count, capacity;
+    bool failed;       /* out of memory while points were added */
     char missing[256]; /* why rows gave no point: the first reason; "": none was missing */
     size_t missing_count;
 } fm_claim_points;
 
-/* FM_OK also without any point. FM_NO_MEMORY. The caller frees. */
-fm_status claim_points_make(fm_claim_points *points, const fm_claim *claim,
-                            const fm_claim_rows *rows, fm_error *err);
+/* Adds a point. Out of memory is remembered in `failed`. */
+void claim_points_add(fm_claim_points *points, const fm_claim_point *point);
+/* Brings the points of each series together, x rising. */
+void claim_points_sort(fm_claim_points *points, const fm_claim *claim);
 void claim_points_free(fm_claim_points *points);
 
 /* Points of one curve: they differ in `along` and `across` only. */

@@ -7,7 +7,9 @@
 
 #include "base/csv.h"
 #include "base/text.h"
+#include "memory_points.h"
 #include "read/figure_cases.h"
+#include "summary_points.h"
 
 enum { DEVICES_MOST = 16 };
 
@@ -79,6 +81,22 @@ static void explain(fm_verdict *verdict, const verdicts_job *job, const fm_claim
                  "no case of this run is what the claim is about");
 }
 
+/* All points of the claim, series by series, x rising. FM_OK also without any. */
+static fm_status make_points(fm_claim_points *points, const fm_claim *claim,
+                             const fm_claim_rows *rows, fm_error *err)
+{
+    *points = (fm_claim_points){ 0 };
+    for (size_t i = 0; i < claim->of_count; i++)
+        if (claim->of[i].table == FM_SELECT_MEMORY)
+            memory_points_add(points, claim, rows, i);
+        else
+            summary_points_add(points, claim, rows, i);
+    if (points->failed)
+        return fm_fail(err, FM_NO_MEMORY, "claim %s: %zu points", claim->id, points->count);
+    claim_points_sort(points, claim);
+    return FM_OK;
+}
+
 static fm_status judge_on(fm_verdict *verdict, const verdicts_job *job, const fm_claim *claim,
                           const char *device)
 {
@@ -88,7 +106,7 @@ static fm_status judge_on(fm_verdict *verdict, const verdicts_job *job, const fm
                                  .memory = job->memory,
                                  .figure = job->figure->id };
     choose_cases(job, device);
-    fm_status status = claim_points_make(&points, claim, &rows, job->err);
+    fm_status status = make_points(&points, claim, &rows, job->err);
     if (status == FM_OK && points.count > 0)
         status = claim_judge(verdict, claim, &rows, &points, job->err);
     else if (status == FM_OK)
