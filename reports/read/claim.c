@@ -124,21 +124,21 @@ static fm_status read_selection(fm_claim_selection *selection, const fm_claim_se
 
 static fm_status read_of(fm_claim *claim, const fm_yaml *map, const fm_yaml_place *at)
 {
-    const fm_yaml *of = yaml_tree_find(map, "of");
+    const fm_yaml *value = yaml_tree_find(map, "of");
     const bool wants_list = claim->form == FM_CLAIM_ORDER;
     fm_status status = FM_OK;
-    if (of == NULL || (of->kind == FM_YAML_LIST) != wants_list ||
-        (wants_list && (of->count < 2 || of->count > FM_CLAIM_SELECTIONS)))
+    if (value == NULL || (value->kind == FM_YAML_LIST) != wants_list ||
+        (wants_list && (value->count < 2 || value->count > FM_CLAIM_SELECTIONS)))
         return fm_fail(at->err, FM_INVALID, "%s:%u: %s: of: %s is expected", at->path,
-                       of == NULL ? map->line : of->line, claim->id,
+                       value == NULL ? map->line : value->line, claim->id,
                        wants_list ? "a list of 2 to 12 selections" : "a selection");
     if (!wants_list) {
         claim->of_count = 1;
-        return read_selection(&claim->of[0], NULL, of, at);
+        return read_selection(&claim->of[0], NULL, value, at);
     }
-    for (size_t i = 0; i < of->count && status == FM_OK; i++)
+    for (size_t i = 0; i < value->count && status == FM_OK; i++)
         status = read_selection(&claim->of[claim->of_count++], i > 0 ? &claim->of[0] : NULL,
-                                &of->items[i], at);
+                                &value->items[i], at);
     return status;
 }
 

@@ -3,11 +3,11 @@
 #include <math.h>
 #include <stdbool.h>
 
-fm_interval interval_difference(fm_interval of, fm_interval minus)
+fm_interval interval_difference(fm_interval minuend, fm_interval subtrahend)
 {
-    const double below = hypot(of.median - of.low, minus.high - minus.median);
-    const double above = hypot(of.high - of.median, minus.median - minus.low);
-    const double median = of.median - minus.median;
+    const double below = hypot(minuend.median - minuend.low, subtrahend.high - subtrahend.median);
+    const double above = hypot(minuend.high - minuend.median, subtrahend.median - subtrahend.low);
+    const double median = minuend.median - subtrahend.median;
     return (fm_interval){ median, median - below, median + above };
 }
 
@@ -16,20 +16,23 @@ static bool is_exact(fm_interval value)
     return value.low == value.high;
 }
 
-fm_interval interval_ratio(fm_interval of, fm_interval over)
+fm_interval interval_ratio(fm_interval dividend, fm_interval divisor)
 {
-    const double median = of.median / over.median;
-    if (is_exact(of) && is_exact(over))
+    const double median = dividend.median / divisor.median;
+    if (is_exact(dividend) && is_exact(divisor))
         return (fm_interval){ median, median, median };
-    if (is_exact(over) && over.median > 0.0)
-        return (fm_interval){ median, of.low / over.median, of.high / over.median };
-    if (of.low > 0.0 && over.low > 0.0) {
-        const double below = hypot(log(of.median / of.low), log(over.high / over.median));
-        const double above = hypot(log(of.high / of.median), log(over.median / over.low));
+    if (is_exact(divisor) && divisor.median > 0.0)
+        return (fm_interval){ median, dividend.low / divisor.median,
+                              dividend.high / divisor.median };
+    if (dividend.low > 0.0 && divisor.low > 0.0) {
+        const double below =
+            hypot(log(dividend.median / dividend.low), log(divisor.high / divisor.median));
+        const double above =
+            hypot(log(dividend.high / dividend.median), log(divisor.median / divisor.low));
         return (fm_interval){ median, median * exp(-below), median * exp(above) };
     }
-    if (over.low > 0.0) /* a difference about zero: the widest that both allow */
-        return (fm_interval){ median, fmin(of.low / over.low, of.low / over.high),
-                              fmax(of.high / over.low, of.high / over.high) };
+    if (divisor.low > 0.0) /* a difference about zero: the widest that both allow */
+        return (fm_interval){ median, fmin(dividend.low / divisor.low, dividend.low / divisor.high),
+                              fmax(dividend.high / divisor.low, dividend.high / divisor.high) };
     return (fm_interval){ median, -INFINITY, INFINITY };
 }

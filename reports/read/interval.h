@@ -6,7 +6,7 @@
 
 /* Arithmetic of independent medians with 95 % intervals: limits are recovered from the parts'
  * (Donner and Zou's MOVER), for ratios of their logarithms. */
-fm_interval interval_ratio(fm_interval of, fm_interval over);
-fm_interval interval_difference(fm_interval of, fm_interval minus);
+fm_interval interval_ratio(fm_interval dividend, fm_interval divisor);
+fm_interval interval_difference(fm_interval minuend, fm_interval subtrahend);
 
 #endif

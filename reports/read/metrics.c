@@ -40,10 +40,10 @@ static const derived *derived_find(const char *name)
 }
 
 /* A long frame is few frames a second: the ends of the interval change places. */
-static fm_interval derive(const derived *of, const fm_case_row *result, fm_interval frame_ms)
+static fm_interval derive(const derived *metric, const fm_case_row *result, fm_interval frame_ms)
 {
-    const double a = of->value(frame_ms.low, result), b = of->value(frame_ms.high, result);
-    return (fm_interval){ of->value(frame_ms.median, result), fmin(a, b), fmax(a, b) };
+    const double a = metric->value(frame_ms.low, result), b = metric->value(frame_ms.high, result);
+    return (fm_interval){ metric->value(frame_ms.median, result), fmin(a, b), fmax(a, b) };
 }
 
 static bool is_metric(const fm_result_files *results, size_t row, const char *name)
@@ -75,9 +75,9 @@ double result_files_metric(const fm_result_files *results, const fm_case_row *re
     if (strcmp(name, "total_rmse") == 0)
         return result->total_rmse;
     double value;
-    const derived *of = derived_find(name);
-    if (of != NULL)
-        return of->value(result->frame_ms, result);
+    const derived *metric = derived_find(name);
+    if (metric != NULL)
+        return metric->value(result->frame_ms, result);
     if (result_files_number(&value, result, name))
         return value;
     return sample_median(results, (size_t)(result - results->cases), name);
@@ -151,9 +151,10 @@ fm_interval result_files_interval(size_t *sample_count, const fm_result_files *r
                                   size_t name_count)
 {
     static const char *const frame[] = { "frame_ms" };
-    const derived *of = name_count == 1 ? derived_find(names[0]) : NULL;
-    if (of != NULL)
-        return derive(of, result, result_files_interval(sample_count, results, result, frame, 1));
+    const derived *metric = name_count == 1 ? derived_find(names[0]) : NULL;
+    if (metric != NULL)
+        return derive(metric, result,
+                      result_files_interval(sample_count, results, result, frame, 1));
     const size_t index = (size_t)(result - results->cases);
     const size_t room = results->sample_first[index + 1] - results->sample_first[index] + 1;
     frame_sums sums = { calloc(room, sizeof(uint64_t)), calloc(room, sizeof(double)),

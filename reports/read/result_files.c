@@ -191,14 +191,14 @@ static fm_status index_samples(fm_result_files *results, fm_error *err)
 /* A frame of a launch of a case. */
 typedef struct frame_name {
     uint64_t frame;
-    uint32_t of;
+    uint32_t case_index;
 } frame_name;
 
 static int compare_frames(const void *left, const void *right)
 {
     const frame_name *a = left, *b = right;
-    if (a->of != b->of)
-        return a->of < b->of ? -1 : 1;
+    if (a->case_index != b->case_index)
+        return a->case_index < b->case_index ? -1 : 1;
     return (a->frame > b->frame) - (a->frame < b->frame);
 }
 
