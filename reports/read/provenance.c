@@ -127,8 +127,8 @@ static bool scalar_text(char text[512], const json_t *value)
     return true;
 }
 
-static fm_status read_facts(fm_fact **facts, size_t *count, json_t *object, const char *path,
-                            fm_error *err)
+static fm_status read_facts(fm_manifest_fact **facts, size_t *count, json_t *object,
+                            const char *path, fm_error *err)
 {
     const char *name;
     json_t *value;

@@ -23,19 +23,20 @@ typedef struct fm_device_info {
 } fm_device_info;
 
 /* A line of "machine", or of the head of the manifest, as text. */
-typedef struct fm_fact {
+typedef struct fm_manifest_fact {
     const char *name;
     char value[512];
-} fm_fact;
+} fm_manifest_fact;
 
 typedef struct fm_provenance {
     fm_method_info *methods;
     size_t method_count;
     fm_device_info *devices;
     size_t device_count;
-    fm_fact *machine; /* machine's scalars, in the file's order */
+    fm_manifest_fact *machine; /* machine's scalars, in the file's order */
     size_t machine_count;
-    fm_fact *facts; /* the head's scalars: command, git_commit, seed, started, schema, ... */
+    fm_manifest_fact
+        *facts; /* the head's scalars: command, git_commit, seed, started, schema, ... */
     size_t fact_count;
     const char **figures; /* ids of the figures that the run was made for */
     size_t figure_count;
