@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "read/case_metrics.h"
 #include "read/options.h"
 #include "read/workload.h"
 #include "values.h"
@@ -99,7 +100,7 @@ static double x_of(const points_job *job, const fm_case_row *result)
 {
     if (job->claim->along[0] == '\0')
         return NAN;
-    return result_files_place(job->rows->results, result, job->claim->along);
+    return case_place(job->rows->results, result, job->claim->along);
 }
 
 static bool evaluate(fm_claim_point *point, points_job *job, const fm_claim_selection *selection)

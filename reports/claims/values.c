@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "read/case_metrics.h"
+
 enum { SAMPLES_WANTED = 5 };
 /* What timings scatter by from process to process where a processor does the work. */
 static const double few_samples_share = 0.15;
@@ -31,8 +33,8 @@ fm_interval value_measured(bool *has_few_samples, const fm_claim_selection *sele
 {
     size_t samples = 0;
     fm_interval value =
-        result_files_interval(&samples, rows->results, result, text_list_items(&selection->metrics),
-                              selection->metrics.count);
+        case_interval(&samples, rows->results, result, text_list_items(&selection->metrics),
+                      selection->metrics.count);
     if (samples == 0)
         samples = isnan(result->samples) ? 0 : (size_t)result->samples;
     const bool is_single = result->is_software && result->launches < 2.0;

@@ -7,6 +7,7 @@
 
 #include "figure_labels.h"
 #include "figure_paper.h"
+#include "read/case_metrics.h"
 #include "read/family.h"
 
 typedef struct bar_place {
@@ -32,7 +33,7 @@ static double add_stack(fm_figure_job *job, bar_place *place, const fm_case_row 
     for (size_t i = 0; i <= job->from->parts.count; i++) {
         double value =
             i < job->from->parts.count
-                ? result_files_metric(job->results, result, job->from->parts.items[i])
+                ? case_metric(job->results, result, job->from->parts.items[i])
                 : result->frame_ms - top; /* own passes, and what medians of parts leave */
         if (!isfinite(value) || value <= (i < job->from->parts.count ? 0.0 : 0.02 * top))
             continue;

@@ -6,6 +6,7 @@
 
 #include "base/text.h"
 #include "figure_labels.h"
+#include "read/case_metrics.h"
 
 /* The paper's point is of the group's workload. */
 static bool applies(const fm_figure_job *job, const fm_paper_point *point)
@@ -13,7 +14,7 @@ static bool applies(const fm_figure_job *job, const fm_paper_point *point)
     for (size_t i = 0; point->at != NULL && i < point->at->count; i++) {
         const fm_yaml *item = &point->at->items[i];
         double wanted = NAN;
-        const double has = result_files_metric(job->results, job->group->cases[0], item->key);
+        const double has = case_metric(job->results, job->group->cases[0], item->key);
         if (item->text == NULL || !text_to_double(&wanted, item->text) || has != wanted)
             return false;
     }

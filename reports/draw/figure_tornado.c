@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "figure_labels.h"
+#include "read/case_metrics.h"
 
 /* Colours of the parts of a bar, beyond those that stacks use first. */
 enum { LOW_PART = 6, HIGH_PART = 7, VALUE_PX = 9 };
@@ -39,8 +40,8 @@ static double mean_ratio(const fm_figure_job *job, size_t first, const char *met
         const fm_case_row *base = figure_base_at(job, figure_x(job, result));
         if (base == NULL)
             continue;
-        const double ratio = result_files_metric(job->results, result, metric) /
-                             result_files_metric(job->results, base, metric);
+        const double ratio =
+            case_metric(job->results, result, metric) / case_metric(job->results, base, metric);
         sum += isfinite(ratio) ? ratio : 0.0;
         count += isfinite(ratio);
     }

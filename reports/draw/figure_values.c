@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "read/case_metrics.h"
 #include "read/options.h"
 
 static void note(fm_figure_job *job, fm_numbers *numbers, double value)
@@ -59,7 +60,7 @@ double figure_x(const fm_figure_job *job, const fm_case_row *result)
             return (double)(i + 1);
     if (strcmp(job->from->x, "k") == 0 && isnan(result->k))
         return k_of_workload(result);
-    return result_files_place(job->results, result, job->from->x);
+    return case_place(job->results, result, job->from->x);
 }
 
 size_t figure_distinct_x(double *xs, const fm_figure_job *job)
@@ -86,8 +87,8 @@ size_t figure_distinct_x(double *xs, const fm_figure_job *job)
 fm_interval figure_y(const fm_figure_job *job, const fm_case_row *result)
 {
     size_t samples;
-    return result_files_interval(&samples, job->results, result, text_list_items(&job->from->ys),
-                                 job->from->ys.count);
+    return case_interval(&samples, job->results, result, text_list_items(&job->from->ys),
+                         job->from->ys.count);
 }
 
 const fm_case_row *figure_base_at(const fm_figure_job *job, double x)

@@ -1,11 +1,11 @@
-/* Numbers of a case: columns of summary.csv, samples, and what follows from them. */
+#include "case_metrics.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/text.h"
 #include "options.h"
-#include "result_files.h"
 
 /* What papers plot instead of times. */
 typedef struct derived {
@@ -48,29 +48,30 @@ static fm_interval derive(const derived *metric, const fm_case_row *result, fm_i
 
 static bool is_metric(const fm_result_files *results, size_t row, const char *name)
 {
-    return results->sample_case[row] != UINT32_MAX && isfinite(results->sample_value[row]) &&
-           strcmp(table_cell(results->samples, row, results->sample_metric), name) == 0;
+    return results->samples.case_index[row] != UINT32_MAX &&
+           isfinite(results->samples.value[row]) &&
+           strcmp(table_cell(results->samples.table, row, results->samples.metric_column), name) ==
+               0;
 }
 
 /* Median of a case's samples of one metric. */
 static double sample_median(const fm_result_files *results, size_t case_index, const char *name)
 {
-    const size_t first = results->sample_first[case_index];
-    const size_t end = results->sample_first[case_index + 1];
+    const size_t first = results->samples.first[case_index];
+    const size_t end = results->samples.first[case_index + 1];
     size_t count = 0;
     double *values = calloc(end - first + 1, sizeof *values);
     if (values == NULL)
         return NAN;
     for (size_t i = first; i < end; i++)
-        if (is_metric(results, results->sample_rows[i], name))
-            values[count++] = results->sample_value[results->sample_rows[i]];
+        if (is_metric(results, results->samples.rows[i], name))
+            values[count++] = results->samples.value[results->samples.rows[i]];
     const double median = stats_median(values, count);
     free(values);
     return median;
 }
 
-double result_files_metric(const fm_result_files *results, const fm_case_row *result,
-                           const char *name)
+double case_metric(const fm_result_files *results, const fm_case_row *result, const char *name)
 {
     if (strcmp(name, "total_rmse") == 0)
         return result->total_rmse;
@@ -78,16 +79,15 @@ double result_files_metric(const fm_result_files *results, const fm_case_row *re
     const derived *metric = derived_find(name);
     if (metric != NULL)
         return metric->value(result->frame_ms, result);
-    if (result_files_number(&value, result, name))
+    if (case_number(&value, result, name))
         return value;
     return sample_median(results, (size_t)(result - results->cases), name);
 }
 
-double result_files_place(const fm_result_files *results, const fm_case_row *result,
-                          const char *name)
+double case_place(const fm_result_files *results, const fm_case_row *result, const char *name)
 {
     char option[FM_OPTION_VALUE_BYTES];
-    double value = result_files_metric(results, result, name);
+    double value = case_metric(results, result, name);
     options_value(option, result->options, name);
     if (isnan(value) && !text_to_double(&value, option))
         return NAN;
@@ -121,15 +121,48 @@ static bool add_metric(frame_sums *sums, const fm_result_files *results, size_t 
                        const char *name)
 {
     bool has_any = false;
-    for (size_t i = results->sample_first[case_index]; i < results->sample_first[case_index + 1];
+    for (size_t i = results->samples.first[case_index]; i < results->samples.first[case_index + 1];
          i++) {
-        const uint32_t row = results->sample_rows[i];
-        if (results->sample_frame[row] == FM_SAMPLE_OF_CASE || !is_metric(results, row, name))
+        const uint32_t row = results->samples.rows[i];
+        if (results->samples.frame[row] == FM_SAMPLE_OF_CASE || !is_metric(results, row, name))
             continue;
-        add_frame(sums, results->sample_frame[row], results->sample_value[row]);
+        add_frame(sums, results->samples.frame[row], results->samples.value[row]);
         has_any = true;
     }
     return has_any;
+}
+
+static bool open_sums(frame_sums *sums, size_t room)
+{
+    *sums = (frame_sums){ .frames = calloc(room, sizeof *sums->frames),
+                          .values = calloc(room, sizeof *sums->values),
+                          .launches = calloc(room, sizeof *sums->launches) };
+    return sums->frames != NULL && sums->values != NULL && sums->launches != NULL;
+}
+
+static void close_sums(frame_sums *sums)
+{
+    free(sums->frames);
+    free(sums->values);
+    free(sums->launches);
+}
+
+/* What is the same for all frames is summed in *constant. Returns how many metrics the case has. */
+static size_t add_metrics(frame_sums *sums, double *constant, const fm_result_files *results,
+                          const fm_case_row *result, const char *const *names, size_t name_count)
+{
+    size_t found = 0;
+    *constant = 0.0;
+    for (size_t i = 0; i < name_count; i++) {
+        if (add_metric(sums, results, (size_t)(result - results->cases), names[i])) {
+            found++;
+            continue;
+        }
+        const double value = case_metric(results, result, names[i]);
+        *constant += isnan(value) ? 0.0 : value;
+        found += isnan(value) ? 0 : 1;
+    }
+    return found;
 }
 
 static fm_interval interval_of(const frame_sums *sums, double constant)
@@ -146,44 +179,29 @@ static fm_interval interval_of(const frame_sums *sums, double constant)
     return interval;
 }
 
-fm_interval result_files_interval(size_t *sample_count, const fm_result_files *results,
-                                  const fm_case_row *result, const char *const *names,
-                                  size_t name_count)
+fm_interval case_interval(size_t *sample_count, const fm_result_files *results,
+                          const fm_case_row *result, const char *const *names, size_t name_count)
 {
     static const char *const frame[] = { "frame_ms" };
     const derived *metric = name_count == 1 ? derived_find(names[0]) : NULL;
     if (metric != NULL)
-        return derive(metric, result,
-                      result_files_interval(sample_count, results, result, frame, 1));
-    const size_t index = (size_t)(result - results->cases);
-    const size_t room = results->sample_first[index + 1] - results->sample_first[index] + 1;
-    frame_sums sums = { calloc(room, sizeof(uint64_t)), calloc(room, sizeof(double)),
-                        calloc(room, sizeof(uint32_t)), 0 };
+        return derive(metric, result, case_interval(sample_count, results, result, frame, 1));
+    const size_t *first = results->samples.first + (result - results->cases);
+    frame_sums sums;
     double constant = 0.0;
-    size_t found = 0;
     fm_interval interval = { NAN, NAN, NAN };
     *sample_count = 0;
-    if (sums.frames == NULL || sums.values == NULL || sums.launches == NULL)
-        goto out;
-    for (size_t i = 0; i < name_count; i++) {
-        if (add_metric(&sums, results, index, names[i])) {
-            found++;
-            continue;
-        }
-        const double value = result_files_metric(results, result, names[i]);
-        constant += isnan(value) ? 0.0 : value;
-        found += isnan(value) ? 0 : 1;
+    if (open_sums(&sums, first[1] - first[0] + 1)) {
+        const size_t found = add_metrics(&sums, &constant, results, result, names, name_count);
+        *sample_count = sums.count;
+        if (sums.count > 0)
+            interval = interval_of(&sums, constant);
+        else if (found > 0)
+            interval = (fm_interval){ constant, constant, constant };
+        if (name_count == 1 && sums.count == 0 && strcmp(names[0], "frame_ms") == 0)
+            interval =
+                (fm_interval){ result->frame_ms, result->frame_ms_low, result->frame_ms_high };
     }
-    *sample_count = sums.count;
-    if (sums.count > 0)
-        interval = interval_of(&sums, constant);
-    else if (found > 0)
-        interval = (fm_interval){ constant, constant, constant };
-    if (name_count == 1 && sums.count == 0 && strcmp(names[0], "frame_ms") == 0)
-        interval = (fm_interval){ result->frame_ms, result->frame_ms_low, result->frame_ms_high };
-out:
-    free(sums.frames);
-    free(sums.values);
-    free(sums.launches);
+    close_sums(&sums);
     return interval;
 }

@@ -210,3 +210,14 @@ fm_status table_number(double *value, const fm_table *table, size_t row, size_t 
                        table->lines[row], table->names[column], text);
     return FM_OK;
 }
+
+fm_status table_need_column(size_t *column, const fm_table *table, const char *name, fm_error *err)
+{
+    *column = table_column(table, name);
+    if (*column != FM_TABLE_NO_COLUMN)
+        return FM_OK;
+    const char *nearest = text_nearest(name, table->names, table->column_count);
+    return fm_fail(err, FM_INVALID, "%s:1: no column \"%s\"%s%s%s", table->path, name,
+                   nearest == NULL ? "" : " (there is \"", nearest == NULL ? "" : nearest,
+                   nearest == NULL ? "" : "\")");
+}

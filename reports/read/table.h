@@ -29,6 +29,8 @@ void table_close(fm_table *table);
 
 /* FM_TABLE_NO_COLUMN: no such column. */
 size_t table_column(const fm_table *table, const char *name);
+/* The same, but FM_INVALID, naming the nearest column, where there is none. */
+fm_status table_need_column(size_t *column, const fm_table *table, const char *name, fm_error *err);
 const char *table_cell(const fm_table *table, size_t row, size_t column); /* no column: "" */
 
 /* A number; empty is NAN, and "inf", "-inf" and "nan" are what they say. FM_INVALID, naming file,

@@ -3,6 +3,7 @@
 
 #include "draw/speed_error.h"
 #include "figure_kit.h"
+#include "read/case_metrics.h"
 
 static const char figure_text[] =
     "id: f-1\npaper: f\ntitle: t\nrun:\n  - { methods: [a] }\n  - { methods: [b] }\n"
@@ -71,10 +72,10 @@ static void frames_per_second_follow_from_the_time(void **state)
     size_t samples;
     open_fixture(&with, NULL);
     const fm_case_row *row = &with.results->cases[0];
-    assert_true(result_files_metric(with.results, row, "fps") == 100.0);
-    const fm_interval rate = result_files_interval(&samples, with.results, row, fps, 1);
+    assert_true(case_metric(with.results, row, "fps") == 100.0);
+    const fm_interval rate = case_interval(&samples, with.results, row, fps, 1);
     assert_true(rate.median == 100.0 && rate.low < 100.0 && rate.high > 100.0);
-    const fm_interval total = result_files_interval(&samples, with.results, row, sum, 3);
+    const fm_interval total = case_interval(&samples, with.results, row, sum, 3);
     assert_true(fabs(total.median - 11.0) < 1e-9); /* no count pass: nothing is added */
     assert_int_equal(samples, 6);
     fixture_close(&with);

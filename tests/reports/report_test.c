@@ -21,6 +21,7 @@
 #include "draw/figure_charts.h"
 #include "draw/speed_error.h"
 #include "page/report.h"
+#include "read/case_metrics.h"
 #include "read/group.h"
 #include "read/paper_figure.h"
 #include "read/result_files.h"
@@ -213,8 +214,8 @@ static void results_take_total_rmse_from_samples(void **state)
     assert_int_equal(result_files_read(&results, directory, NULL), FM_OK);
     assert_true(results->cases[1].total_rmse == 0.5);
     assert_true(results->cases[0].total_rmse == 0.2);
-    assert_true(result_files_metric(results, &results->cases[1], "pass.peel_ms") == 4.0);
-    assert_true(isnan(result_files_metric(results, &results->cases[0], "pass.peel_ms")));
+    assert_true(case_metric(results, &results->cases[1], "pass.peel_ms") == 4.0);
+    assert_true(isnan(case_metric(results, &results->cases[0], "pass.peel_ms")));
     result_files_close(results);
     remove_directory(directory);
 }
@@ -230,8 +231,8 @@ static void results_leave_out_frames_that_are_off_clock(void **state)
                "1,r,a8,0,0,pass.peel_ms,3,ms\n1,r,a8,0,1,pass.peel_ms,99,ms\n"
                "1,r,a8,1,1,pass.peel_ms,3,ms\n1,r,a8,0,1,off_clock,1,\n");
     assert_int_equal(result_files_read(&results, directory, NULL), FM_OK);
-    assert_true(result_files_metric(results, &results->cases[1], "pass.peel_ms") == 3.0);
-    assert_true(isnan(result_files_metric(results, &results->cases[1], "off_clock")));
+    assert_true(case_metric(results, &results->cases[1], "pass.peel_ms") == 3.0);
+    assert_true(isnan(case_metric(results, &results->cases[1], "off_clock")));
     result_files_close(results);
     remove_directory(directory);
 }

@@ -1,0 +1,46 @@
+/* Rows of summary.csv: one a case. What each number means stands in model/metrics.h. */
+#ifndef FM_READ_CASES_H
+#define FM_READ_CASES_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/error.h"
+#include "model/outcome.h"
+#include "provenance.h"
+#include "table.h"
+
+/* One row. Texts belong to the table and the manifest. Numbers are NAN where the cell is empty. */
+typedef struct fm_case_row {
+    const char *id, *status, *message, *method, *method_version, *device, *device_name, *feed;
+    const char *scene, *order, *seed, *options;
+    double width_px, height_px, n, k, r, pixel_density, fragment_probability, tessellation;
+    double launches, samples, frame_ms, frame_ms_low, frame_ms_high;
+    double clear_ms, count_ms, reference_ms, store_ms, resolve_ms, times_floor;
+    double bytes_allocated, bytes_predicted, bytes_used;
+    double fragments_generated, fragments_stored, fragments_lost, missing, extra, misordered;
+    double depth_ulp_max, rmse, psnr_db, max_abs, ssim, flip, truncation_rmse, distinct_images;
+    double frame_wall_ms, fragments_per_s;
+    double total_rmse;      /* from samples.csv; rmse where the run has none */
+    fm_case_status outcome; /* of the word `status` */
+    fm_method_info look;
+    uint64_t figures; /* bit i: figure_names[i] holds it */
+    bool is_ok;
+    bool is_measured;  /* has a time, and its error: ok, or wrong_image */
+    bool is_simulated; /* feed frames: counts and models, no times */
+    bool is_software;  /* the device */
+} fm_case_row;
+
+/* One row of the table each, in its order. FM_INVALID: a column is missing, a number is none, or a
+ * status, id or method cannot be; FM_NO_MEMORY. The caller frees *cases. */
+fm_status cases_read(fm_case_row **cases, const fm_table *table, const fm_provenance *manifest,
+                     fm_error *err);
+
+/* The index of the case of that id. guess: where to look first, for rows of a case follow one
+ * another in files. UINT32_MAX: none, such as a case of a stopped run that has no row yet. */
+uint32_t cases_find(const fm_case_row *cases, size_t count, const char *id, uint32_t guess);
+
+/* The number column of that name; false: there is none. */
+bool case_number(double *value, const fm_case_row *result, const char *name);
+
+#endif
