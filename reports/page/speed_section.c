@@ -1,0 +1,43 @@
+#include "speed_section.h"
+
+#include <stdio.h>
+
+#include "case_table.h"
+#include "draw/speed_error.h"
+#include "html.h"
+
+static fm_status add_group(fm_writer *to, const fm_group *group)
+{
+    fm_chart chart;
+    char name[160];
+    text_add(&to->page, "<p class=faint>");
+    html_add(&to->page, group->workload);
+    text_add(&to->page, "</p>\n");
+    snprintf(name, sizeof name, "speed-error-%s", group->name);
+    fm_status status = speed_error_chart(&chart, group, to->err);
+    status = writer_add_chart(to, &chart, status, name);
+    if (status == FM_OK)
+        case_table_add(&to->page, group);
+    return status;
+}
+
+/* Below a paper's figures its many workloads are folded away. */
+fm_status speed_section_add(fm_writer *to, const fm_groups *groups, bool is_folded)
+{
+    fm_status status = FM_OK;
+    text_add(&to->page, "<h2 id=speed>Speed against error</h2>\n");
+    for (size_t i = 0; i < groups->count && status == FM_OK; i++) {
+        text_add(&to->page, is_folded ? "<details><summary>" : "<h3>");
+        html_add(&to->page, groups->groups[i].title);
+        if (is_folded) {
+            text_add(&to->page, "; ");
+            html_add(&to->page, groups->groups[i].workload);
+        }
+        text_add(&to->page, is_folded ? "</summary>\n" : "</h3>\n");
+        status = add_group(to, &groups->groups[i]);
+        text_add(&to->page, is_folded ? "</details>\n" : "");
+    }
+    if (groups->count == 0)
+        text_add(&to->page, "<p class=note>summary.csv has no case yet.</p>\n");
+    return status;
+}
