@@ -208,14 +208,14 @@ static void fit_axes(fm_figure_job *job, const bar_place *place)
     chart->bottom_px = (int)place->top_row + 44;
 }
 
-fm_status figure_make_bars(fm_figure_job *job, double *xs, fm_error *err)
+fm_status figure_make_bars(fm_figure_job *job, fm_error *err)
 {
     bar_place place = { .slot = 0.5 };
-    const size_t x_count = figure_distinct_x(xs, job);
+    figure_find_places(job);
     if (is_grouped(job) && !open_marks(&place, job))
         return fm_fail(err, FM_NO_MEMORY, "%s: bars", job->group->title);
-    for (size_t i = 0; i < x_count; i++)
-        add_cluster(job, &place, xs[i], false);
+    for (size_t i = 0; i < job->places.count; i++)
+        add_cluster(job, &place, job->places.items[i], false);
     add_cluster(job, &place, NAN, true);
     if (job->y.count == 0)
         return fm_fail(err, FM_UNSUPPORTED, "%s: no case was measured", job->group->title);

@@ -6,6 +6,6 @@
 #include "figure_values.h"
 
 /* FM_UNSUPPORTED: nothing to draw; FM_NO_MEMORY. */
-fm_status figure_make_bars(fm_figure_job *job, double *xs, fm_error *err);
+fm_status figure_make_bars(fm_figure_job *job, fm_error *err);
 
 #endif

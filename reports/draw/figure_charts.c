@@ -1,7 +1,6 @@
 #include "figure_charts.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "figure_bars.h"
@@ -38,43 +37,47 @@ static int title_bytes(const fm_group *group, const fm_figure_chart *from)
     return (int)(feed - group->title);
 }
 
+static void name_chart(const fm_figure_job *job)
+{
+    fm_chart *chart = job->chart;
+    const fm_group *group = job->group;
+    const char *between = group->workload[0] != '\0' ? "; " : "";
+    snprintf(chart->title, sizeof chart->title, "%.40s: %.110s", job->figure->id, job->from->title);
+    if (figure_is_by_scene(job))
+        snprintf(chart->subtitle, sizeof chart->subtitle, "%zu scenes, %.90s%s%.90s",
+                 job->figure->scenes.count, group->cases[0]->device, between, group->workload);
+    else
+        snprintf(chart->subtitle, sizeof chart->subtitle, "%.*s%s%.100s",
+                 title_bytes(group, job->from), group->title, between, group->workload);
+}
+
+static fm_status draw(fm_figure_job *job, const fm_figure_job *reference, fm_error *err)
+{
+    switch (job->from->kind) {
+    case FM_FIGURE_LINES:
+        return figure_make_lines(job, reference, err);
+    case FM_FIGURE_STACKED_BARS:
+    case FM_FIGURE_GROUPED_BARS:
+        return figure_make_bars(job, err);
+    case FM_FIGURE_TORNADO:
+        return figure_make_tornado(job, err);
+    }
+    return FM_OK;
+}
+
 fm_status figure_chart_make(fm_chart *chart, const fm_paper_figure *figure,
                             const fm_figure_chart *from, const fm_figure_source *own,
                             const fm_figure_source *reference, fm_error *err)
 {
-    fm_status status = FM_OK;
-    const fm_group *group = own->group;
     *chart = (fm_chart){ .x.length_px = plot_width_px, .y.length_px = plot_height_px };
     fm_figure_job job = {
-        .chart = chart, .figure = figure, .from = from, .results = own->results, .group = group
+        .chart = chart, .figure = figure, .from = from, .results = own->results, .group = own->group
     };
-    fm_figure_job other = { .chart = chart,
-                            .figure = figure,
-                            .from = from,
-                            .results = reference->results,
-                            .group = reference->group };
-    double *xs = calloc(group->count + 1, sizeof *xs);
-    if (xs == NULL) {
-        status = fm_fail(err, FM_NO_MEMORY, "figure %s", figure->id);
-        goto out;
-    }
-    snprintf(chart->title, sizeof chart->title, "%.40s: %.110s", figure->id, from->title);
-    if (figure_is_by_scene(&job))
-        snprintf(chart->subtitle, sizeof chart->subtitle, "%zu scenes, %.90s%s%.90s",
-                 figure->scenes.count, group->cases[0]->device,
-                 group->workload[0] != '\0' ? "; " : "", group->workload);
-    else
-        snprintf(chart->subtitle, sizeof chart->subtitle, "%.*s%s%.100s", title_bytes(group, from),
-                 group->title, group->workload[0] != '\0' ? "; " : "", group->workload);
-    if (from->kind == FM_FIGURE_LINES)
-        status = figure_make_lines(&job, &other, xs, err);
-    else if (from->kind == FM_FIGURE_TORNADO)
-        status = figure_make_tornado(&job, err);
-    else
-        status = figure_make_bars(&job, xs, err);
-out:
-    free(xs);
-    free(job.x.items);
-    free(job.y.items);
+    fm_figure_job other = job;
+    other.results = reference->results;
+    other.group = reference->group;
+    name_chart(&job);
+    const fm_status status = draw(&job, &other, err);
+    figure_job_free(&job);
     return status;
 }

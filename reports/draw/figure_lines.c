@@ -84,10 +84,25 @@ static void tell_variants_apart(fm_series *series, const fm_figure_job *job, siz
         series->stroke = series->stroke == FM_STROKE_SOLID ? FM_STROKE_DASHED : FM_STROKE_SOLID;
 }
 
-/* The points of the series that starts at case `first`, at x's own, or level at all others' x. What
- * the axes must hold is noted in `axes`. */
-static fm_series *add_series(const fm_figure_job *job, fm_figure_job *axes, size_t first,
-                             const double *xs, size_t x_count)
+/* The points of one case: at its own x, or level at all of the chart's. */
+static void add_points(const fm_figure_job *job, fm_figure_job *axes, fm_series *series,
+                       const fm_case_row *result)
+{
+    const bool is_level = figure_is_level(job, result);
+    const size_t count = is_level ? axes->places.count : 1;
+    for (size_t i = 0; result->is_measured && i < count; i++) {
+        fm_point point;
+        const double x = is_level ? axes->places.items[i] : figure_x(job, result);
+        if (!value_at(&point, job, result, x))
+            continue;
+        chart_add_point(job->chart, series, &point);
+        figure_note_point(axes, &point);
+    }
+}
+
+/* The series that starts at case `first`. `axes` has the chart's places, and notes what the axes
+ * must hold. */
+static fm_series *add_series(const fm_figure_job *job, fm_figure_job *axes, size_t first)
 {
     const fm_case_row *one = job->group->cases[first];
     fm_series *series = chart_add_series(job->chart);
@@ -95,19 +110,9 @@ static fm_series *add_series(const fm_figure_job *job, fm_figure_job *axes, size
         return NULL;
     figure_style_series(series, &one->look);
     tell_variants_apart(series, job, first);
-    for (size_t i = first; i < job->group->count; i++) {
-        const fm_case_row *result = job->group->cases[i];
-        if (!figure_is_same_series(job, first, i))
-            continue;
-        bool level = figure_is_level(job, result);
-        for (size_t j = 0; result->is_measured && j < (level ? x_count : 1); j++) {
-            fm_point point;
-            if (!value_at(&point, job, result, level ? xs[j] : figure_x(job, result)))
-                continue;
-            chart_add_point(job->chart, series, &point);
-            figure_note_point(axes, &point);
-        }
-    }
+    for (size_t i = first; i < job->group->count; i++)
+        if (figure_is_same_series(job, first, i))
+            add_points(job, axes, series, job->group->cases[i]);
     if (series->point_count > 1)
         qsort(series->points, series->point_count, sizeof *series->points, compare_x);
     if (figure_is_level(job, one) && job->from->ratio_to == NULL)
@@ -115,23 +120,21 @@ static fm_series *add_series(const fm_figure_job *job, fm_figure_job *axes, size
     return series;
 }
 
-static void add_ours(fm_figure_job *job, const double *xs, size_t x_count)
+static void add_ours(fm_figure_job *job)
 {
     for (size_t i = 0; i < job->group->count; i++) {
-        fm_series *series =
-            figure_starts_series(job, i) ? add_series(job, job, i, xs, x_count) : NULL;
+        fm_series *series = figure_starts_series(job, i) ? add_series(job, job, i) : NULL;
         if (series != NULL)
             label_ours(series, job, job->group->cases[i]);
     }
 }
 
 /* Another machine's curves: thin, without markers, colours as ours and therefore without legend. */
-static void add_reference(fm_figure_job *job, const fm_figure_job *reference, const double *xs,
-                          size_t x_count)
+static void add_reference(fm_figure_job *job, const fm_figure_job *reference)
 {
     for (size_t i = 0; reference->group != NULL && i < reference->group->count; i++) {
         fm_series *series =
-            figure_starts_series(reference, i) ? add_series(reference, job, i, xs, x_count) : NULL;
+            figure_starts_series(reference, i) ? add_series(reference, job, i) : NULL;
         if (series == NULL)
             continue;
         series->has_marker = false;
@@ -180,17 +183,27 @@ static void name_scenes(fm_figure_job *job)
     job->chart->bottom_px = (int)widest + 24;
 }
 
-fm_status figure_make_lines(fm_figure_job *job, const fm_figure_job *reference, double *xs,
-                            fm_error *err)
+static void add_notes(fm_chart *chart, bool has_paper, const fm_group *reference)
+{
+    size_t note = 0;
+    snprintf(chart->notes[note++], sizeof chart->notes[0], "bars: 95 %% intervals");
+    if (has_paper)
+        snprintf(chart->notes[note++], sizeof chart->notes[0], "hollow: the paper");
+    if (reference != NULL)
+        snprintf(chart->notes[note++], sizeof chart->notes[0], "thin: %.50s",
+                 reference->cases[0]->device_name);
+}
+
+fm_status figure_make_lines(fm_figure_job *job, const fm_figure_job *reference, fm_error *err)
 {
     fm_chart *chart = job->chart;
-    const size_t x_count = figure_distinct_x(xs, job);
-    add_ours(job, xs, x_count);
+    figure_find_places(job);
+    add_ours(job);
     const size_t own_values = job->y.count;
     if (figure_has_paper(job))
         figure_add_paper(job);
     const size_t paper_values = job->y.count;
-    add_reference(job, reference, xs, x_count);
+    add_reference(job, reference);
     if (own_values == 0)
         return fm_fail(err, FM_UNSUPPORTED, "%s: no case has %s%s%s", job->group->title,
                        job->from->y, job->from->ratio_to == NULL ? "" : " and one of ",
@@ -202,12 +215,7 @@ fm_status figure_make_lines(fm_figure_job *job, const fm_figure_job *reference, 
         name_scenes(job);
     else
         fit_numbers(job);
-    size_t note = 0;
-    snprintf(chart->notes[note++], sizeof chart->notes[0], "bars: 95 %% intervals");
-    if (paper_values > own_values)
-        snprintf(chart->notes[note++], sizeof chart->notes[0], "hollow: the paper");
-    if (job->y.count > paper_values)
-        snprintf(chart->notes[note++], sizeof chart->notes[0], "thin: %.50s",
-                 reference->group->cases[0]->device_name);
+    add_notes(chart, paper_values > own_values,
+              job->y.count > paper_values ? reference->group : NULL);
     return FM_OK;
 }

@@ -6,7 +6,6 @@
 
 /* FM_UNSUPPORTED: nothing to draw; FM_NO_MEMORY. reference: the same of another machine, drawn
  * thin; its group is NULL where there is none. */
-fm_status figure_make_lines(fm_figure_job *job, const fm_figure_job *reference, double *xs,
-                            fm_error *err);
+fm_status figure_make_lines(fm_figure_job *job, const fm_figure_job *reference, fm_error *err);
 
 #endif

@@ -63,25 +63,39 @@ double figure_x(const fm_figure_job *job, const fm_case_row *result)
     return case_place(job->results, result, job->from->x);
 }
 
-size_t figure_distinct_x(double *xs, const fm_figure_job *job)
+/* Keeps the places distinct, and rising. */
+static void add_place(fm_figure_job *job, double x)
 {
-    size_t count = 0;
-    for (size_t pass = 0; pass < 2 && count == 0; pass++)
+    fm_numbers *places = &job->places;
+    size_t place = places->count;
+    while (place > 0 && places->items[place - 1] >= x)
+        place--;
+    if (place < places->count && places->items[place] == x)
+        return;
+    note(job, places, x);
+    if (job->chart->failed)
+        return;
+    memmove(places->items + place + 1, places->items + place,
+            (places->count - 1 - place) * sizeof *places->items);
+    places->items[place] = x;
+}
+
+void figure_find_places(fm_figure_job *job)
+{
+    for (size_t pass = 0; pass < 2 && job->places.count == 0; pass++)
         for (size_t i = 0; i < job->group->count; i++) {
             const fm_case_row *result = job->group->cases[i];
-            double x = figure_x(job, result);
-            if (!result->is_measured || !isfinite(x) || (pass == 0 && figure_is_level(job, result)))
-                continue;
-            size_t place = count;
-            while (place > 0 && xs[place - 1] >= x)
-                place--;
-            if (place < count && xs[place] == x)
-                continue;
-            memmove(xs + place + 1, xs + place, (count - place) * sizeof *xs);
-            xs[place] = x;
-            count++;
+            const double x = figure_x(job, result);
+            if (result->is_measured && isfinite(x) && !(pass == 0 && figure_is_level(job, result)))
+                add_place(job, x);
         }
-    return count;
+}
+
+void figure_job_free(fm_figure_job *job)
+{
+    free(job->places.items);
+    free(job->x.items);
+    free(job->y.items);
 }
 
 fm_interval figure_y(const fm_figure_job *job, const fm_case_row *result)

@@ -14,15 +14,18 @@ typedef struct fm_numbers {
     size_t count, capacity;
 } fm_numbers;
 
-/* One chart being made. All but x and y is borrowed. */
+/* One chart being made. Its numbers are owned; all else is borrowed. */
 typedef struct fm_figure_job {
     fm_chart *chart;
     const fm_paper_figure *figure;
     const fm_figure_chart *from; /* what is to be drawn */
     const fm_result_files *results;
     const fm_group *group;
-    fm_numbers x, y; /* values that the axes must hold */
+    fm_numbers places; /* the distinct x of its cases, rising */
+    fm_numbers x, y;   /* values that the axes must hold */
 } fm_figure_job;
+
+void figure_job_free(fm_figure_job *job); /* the numbers */
 
 /* Adds a value that the axis of y must hold, and all of a point for both axes. Out of memory is
  * remembered in the chart's `failed`. */
@@ -36,9 +39,9 @@ bool figure_is_by_scene(const fm_figure_job *job);
 bool figure_is_level(const fm_figure_job *job, const fm_case_row *result);
 /* Where the case stands on x; NAN: nowhere. */
 double figure_x(const fm_figure_job *job, const fm_case_row *result);
-/* The distinct x of all measured cases that use x, rising; at least one when anything is measured.
- * xs: room for one of each case of the group. */
-size_t figure_distinct_x(double *xs, const fm_figure_job *job);
+/* Fills `places`: the x of all measured cases that use x, else of the level ones; at least one when
+ * anything is measured. */
+void figure_find_places(fm_figure_job *job);
 /* The sum of the chart's metrics, with its interval. */
 fm_interval figure_y(const fm_figure_job *job, const fm_case_row *result);
 /* The case that ratios at x are taken to; NULL: it was not measured there. */
