@@ -5,24 +5,27 @@
 #include "points.h"
 #include "verdict.h"
 
+/* Of one point, or of two. */
 typedef struct decision {
     fm_verdict_kind kind;
-    fm_interval measured;
+    fm_interval measured;        /* what was compared with the claim */
     double margin;               /* of two of a kind, the smaller one is worse */
     const fm_claim_point *a, *b; /* between which points; b may be NULL */
 } decision;
 
+/* A claim being judged. Starts with the first three, which are borrowed, then judging_begin. */
 typedef struct judging {
     const fm_claim *claim;
     const fm_claim_rows *rows;
     const fm_claim_points *points;
     decision worst;
     double least, greatest; /* medians of all decisions */
-    size_t count;
-    char note[160]; /* the first reason why something was not judged */
+    size_t count;           /* of decisions */
+    char note[160];         /* the first reason why something was not judged */
 } judging;
 
 void judging_begin(judging *to);
+/* Takes a decision; the worst so far is kept. */
 void judging_decide(judging *to, const decision *made);
 /* Decides by where the value lies between the claim's bounds. */
 void judging_value(judging *to, fm_interval value, const fm_claim_point *a,
@@ -32,6 +35,7 @@ void judging_rise(judging *to, const fm_claim_point *point, const fm_claim_point
                   double least);
 /* Decides whether `next` lies below `point` by the tolerance at most. */
 void judging_step(judging *to, const fm_claim_point *point, const fm_claim_point *next);
+/* Says why something was not judged, as printf does; the first note is kept. */
 void judging_note(judging *to, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* The verdict, and its reason in words. */
 void judging_end(fm_verdict *verdict, const judging *to);

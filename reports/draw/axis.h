@@ -1,5 +1,7 @@
-/* Axes: from values to pixels, and ticks that people read. Pure arithmetic; the chart shim is
- * handed pixels, because VTK's SVG device stretches pens and markers under any other transform. */
+/* Axes: from values to pixels, and ticks that people read.
+ *
+ * Pure arithmetic, without VTK: the chart shim is handed pixels, because VTK's SVG device stretches
+ * pens and markers under any other transform. */
 #ifndef FM_AXIS_H
 #define FM_AXIS_H
 
@@ -11,7 +13,7 @@ extern "C" {
 #endif
 
 enum {
-    FM_AXIS_TICKS = 48,
+    FM_AXIS_TICKS = 48,  /* more are left out */
     FM_AXIS_BIN_PX = 56, /* width of the bin for "exact" at the left of a log axis */
 };
 
@@ -19,18 +21,19 @@ typedef enum fm_scale { FM_SCALE_LINEAR, FM_SCALE_LOG } fm_scale;
 
 typedef struct fm_tick {
     double value;
-    char label[24];
+    char label[24]; /* "": the tick alone */
 } fm_tick;
 
+/* An axis is zero but for title, scale, zero_below and length_px until one of axis_fit fills it. */
 typedef struct fm_axis {
-    char title[128]; /* with the unit */
+    char title[128]; /* with the unit: "frame time [ms]"; "": none */
     fm_scale scale;
     double low, high;  /* what the ends stand for, low < high; LOG: both above 0 */
     double zero_below; /* LOG: values up to this one (and 0) go into a bin of their own at the low
                           end; 0: no bin */
     fm_tick ticks[FM_AXIS_TICKS];
     size_t tick_count;
-    double length_px;
+    double length_px; /* of the plot along this axis */
 } fm_axis;
 
 /* Chooses low, high and ticks so that all finite values fit, with room at the ends. On a log axis
@@ -46,7 +49,7 @@ void axis_fit_near(fm_axis *axis, const double *values, size_t count);
  */
 void axis_tick_values(fm_axis *axis, const double *values, size_t count);
 
-/* Pixels from the low end; values outside the range land on its ends. */
+/* Pixels from the low end, 0 to length_px; values outside the range land on its ends. */
 double axis_position(const fm_axis *axis, double value);
 
 /* "0.02", "5", "1e-4", "20000": the shortest that a reader takes in at once. */

@@ -1,4 +1,10 @@
-/* A chart as data, and the shim that has VTK draw it. No display is needed. */
+/* A chart as data, and the shim that has VTK draw it. No display is needed.
+ *
+ * The room reports/draw makes charts and pictures. Charts are made in two steps: speed_error and
+ * figure_charts fill an fm_chart from cases, chart_svg draws it. Pictures (pictures.h) are the raw
+ * images of the runner as PNG, EXR and heat maps. This is the only room that links VTK, OpenImageIO
+ * and librsvg, and the only one with C++: chart.cpp and image_file.cpp keep every C++ type and
+ * exception to themselves. Nothing here reads result files, judges claims, or writes HTML. */
 #ifndef FM_CHART_H
 #define FM_CHART_H
 
@@ -14,6 +20,7 @@ extern "C" {
 
 #include "base/error.h"
 
+/* How the points of a series are joined. */
 typedef enum fm_stroke {
     FM_STROKE_NONE,
     FM_STROKE_SOLID,
@@ -21,12 +28,14 @@ typedef enum fm_stroke {
     FM_STROKE_DOTTED,
 } fm_stroke;
 
+/* In values of the axes. */
 typedef struct fm_point {
     double x, y;
     double low, high; /* of y's interval; NAN: none is drawn */
     double size_px;   /* of the marker; 0: 9 */
 } fm_point;
 
+/* A curve, or markers without one. Zero: black, no line, no marker, not in the legend. */
 typedef struct fm_series {
     char label[96]; /* legend; empty: not in the legend */
     fm_colour colour;
@@ -40,11 +49,13 @@ typedef struct fm_series {
     size_t point_count, point_capacity;
 } fm_series;
 
+/* An upright rectangle of one colour, below all series. */
 typedef struct fm_bar {
-    double x0, x1, y0, y1; /* in axis values */
+    double x0, x1, y0, y1; /* in values of the axes */
     fm_colour colour;
 } fm_bar;
 
+/* Which part of a text stands at its place. */
 typedef enum fm_anchor { FM_ANCHOR_START, FM_ANCHOR_MIDDLE, FM_ANCHOR_END } fm_anchor;
 
 /* A text at pixels from the lower left corner of the plot; may lie outside of it. */
@@ -58,10 +69,12 @@ typedef struct fm_label {
 
 enum { FM_CHART_NOTES = 6 };
 
+/* A chart. Starts as zero, with length_px of both axes set: the size of the plot. Texts that are
+ * too long for their room are cut. Whoever fills a chart frees it with chart_free. */
 typedef struct fm_chart {
     char title[160];
     char subtitle[200];
-    fm_axis x, y;      /* with length_px set: the size of the plot */
+    fm_axis x, y;
     int bottom_px;     /* room below the plot; 0: 62 */
     int left_px;       /* room left of it; 0: 74 */
     fm_series *series; /* owned */
@@ -74,16 +87,19 @@ typedef struct fm_chart {
     bool failed;                    /* out of memory while it was built: chart_svg will say so */
 } fm_chart;
 
-/* Adds one zeroed entry; NULL when out of memory (remembered in `failed`). The pointer holds until
- * the next one of its kind is added. */
+/* Each adds one zeroed entry. NULL when out of memory, which is remembered in `failed`: callers may
+ * then go on without it. The pointer holds until the next one of its kind is added. */
 fm_series *chart_add_series(fm_chart *chart);
 fm_bar *chart_add_bar(fm_chart *chart);
 fm_label *chart_add_label(fm_chart *chart);
 /* Adds a point at the end of a series of this chart. Out of memory is remembered in `failed`. */
 void chart_add_point(fm_chart *chart, fm_series *series, const fm_point *point);
+/* Frees what the chart owns, and makes it zero. */
 void chart_free(fm_chart *chart);
 
-/* The chart as SVG text; the caller frees *svg. FM_NO_MEMORY; FM_INVALID: VTK could not draw it. */
+/* The chart as SVG text without ids, so that many fit into one page; the caller frees *svg, which
+ * is NULL on failure. FM_NO_MEMORY, also if the chart `failed`; FM_INVALID: VTK could not draw it.
+ */
 fm_status chart_svg(char **svg, const fm_chart *chart, fm_error *err);
 
 /* Width in pixels of a text as charts draw it. */

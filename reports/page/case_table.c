@@ -30,7 +30,8 @@ static const struct {
 };
 enum { COLUMN_COUNT = sizeof columns / sizeof columns[0] };
 
-void case_table_bytes(char text[24], double bytes)
+/* "53.2 MiB", "640 B". */
+static void format_bytes(char text[24], double bytes)
 {
     static const char *const units[] = { "B", "KiB", "MiB", "GiB", "TiB" };
     size_t unit = 0;
@@ -59,7 +60,7 @@ static void add_memory(fm_text *page, const fm_case_row *result)
         text_add(page, "<td></td>");
         return;
     }
-    case_table_bytes(bytes, result->bytes_allocated);
+    format_bytes(bytes, result->bytes_allocated);
     text_add(page, "<td class=n data-v=\"%.17g\" title=\"%.0f bytes\">%s</td>",
              result->bytes_allocated, result->bytes_allocated, bytes);
 }

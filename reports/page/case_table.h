@@ -5,9 +5,8 @@
 #include "base/text.h"
 #include "read/group.h"
 
+/* Cases on the Pareto frontier of the group are marked; a column of messages is there only where a
+ * case has one. */
 void case_table_add(fm_text *page, const fm_group *group);
-
-/* "53.2 MiB", "640 B". */
-void case_table_bytes(char text[24], double bytes);
 
 #endif

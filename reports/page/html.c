@@ -17,7 +17,8 @@ void html_add(fm_text *page, const char *text)
     }
 }
 
-void html_add_data(fm_text *page, const char *mime, const unsigned char *bytes, size_t count)
+/* "data:MIME;base64,..." */
+static void add_data(fm_text *page, const char *mime, const unsigned char *bytes, size_t count)
 {
     static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     text_add(page, "data:%s;base64,", mime);
@@ -45,7 +46,7 @@ fm_status html_add_png(fm_text *page, const char *path, const char *alternative,
     text_add(page, "<img alt=\"");
     html_add(page, alternative);
     text_add(page, "\" src=\"");
-    html_add_data(page, "image/png", (const unsigned char *)bytes, count);
+    add_data(page, "image/png", (const unsigned char *)bytes, count);
     text_add(page, "\">");
     free(bytes);
     return FM_OK;

@@ -1,4 +1,4 @@
-/* Pieces of HTML. */
+/* Pieces of HTML. Out of memory is remembered in the page's `failed`. */
 #ifndef FM_HTML_H
 #define FM_HTML_H
 
@@ -9,8 +9,6 @@
 
 /* Adds text with <, >, &, " and ' escaped. */
 void html_add(fm_text *page, const char *text);
-/* Adds "data:MIME;base64,..." */
-void html_add_data(fm_text *page, const char *mime, const unsigned char *bytes, size_t count);
 /* Adds <img> with a PNG file inside. FM_IO, FM_NO_MEMORY. */
 fm_status html_add_png(fm_text *page, const char *path, const char *alternative, fm_error *err);
 /* Adds a table cell with a number of so many digits, empty when it is NAN; tables sort by it. */

@@ -1,4 +1,5 @@
-/* The parts of report.html that are the same in all reports, or told by the manifest alone. */
+/* The parts of report.html that are the same in all reports, or told by the manifest alone. Out of
+ * memory is remembered in the page's `failed`. */
 #ifndef FM_PAGE_H
 #define FM_PAGE_H
 
@@ -15,6 +16,7 @@ void page_add_guide(fm_text *page);
 void page_add_notes(fm_text *page, const fm_result_files *results);
 /* Machine, devices, methods with version and citation. */
 void page_add_machine(fm_text *page, const fm_result_files *results);
+/* Scripts, and the end of the page. */
 void page_end(fm_text *page);
 
 #endif

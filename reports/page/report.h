@@ -1,4 +1,10 @@
-/* A directory of results becomes charts/, pictures and report.html. */
+/* A directory of results becomes charts/, pictures and report.html.
+ *
+ * The room reports/page writes the report: one file that opens from disk, with charts, tables and
+ * pictures inside. report.c puts the sections in order (paper_section, picture_section,
+ * speed_section, page.h for all that is the same in every report); writer.h is what they share;
+ * html.h, case_table, memory_rows and verdict_table are pieces. HTML is written nowhere else. What
+ * is shown is worked out below: numbers by read, verdicts by claims, charts and PNGs by draw. */
 #ifndef FM_REPORT_H
 #define FM_REPORT_H
 
@@ -9,21 +15,24 @@
 #include "read/paper_figure.h"
 #include "read/result_files.h"
 
+/* What a report is made of; all of it is borrowed. */
 typedef struct fm_report_desc {
-    const fm_result_files *results;
-    const fm_result_files *reference; /* of another machine; NULL: none */
-    bool draws_reference;             /* in all charts, not in ratios only */
-    const fm_claim_results *verdicts;
-    const fm_paper_figure *const *figures; /* [figure_count]; none: no figures section */
+    const fm_result_files *results;        /* the report is written into their directory */
+    const fm_result_files *reference;      /* of another machine; NULL: none */
+    bool draws_reference;                  /* in all charts; false: in charts of ratios only */
+    const fm_claim_results *verdicts;      /* of the figures' claims; NULL: none */
+    const fm_paper_figure *const *figures; /* [figure_count]; 0: no sections of papers */
     size_t figure_count;
 } fm_report_desc;
 
+/* How much was written. */
 typedef struct fm_report_outcome {
     size_t chart_count, picture_count;
 } fm_report_outcome;
 
 /* Writes charts/NAME.svg and .png, pictures in images/, and report.html at last, whole or not at
- * all. FM_IO, FM_NO_MEMORY; FM_INVALID: a damaged picture or table. */
+ * all; files that are there are replaced. FM_IO, FM_NO_MEMORY; FM_INVALID: a damaged picture or
+ * table, or a path that is too long. */
 fm_status report_write(fm_report_outcome *outcome, const fm_report_desc *desc, fm_error *err);
 
 #endif

@@ -10,25 +10,33 @@
 #include "provenance.h"
 #include "table.h"
 
-/* One row. Texts belong to the table and the manifest. Numbers are NAN where the cell is empty. */
+/* One row. Texts belong to the table and the manifest, and are "" where the cell is empty; numbers
+ * are NAN there. Names, units and meanings are those of the columns. */
 typedef struct fm_case_row {
-    const char *id, *status, *message, *method, *method_version, *device, *device_name, *feed;
-    const char *scene, *order, *seed, *options;
+    /* who, where, and what became of it */
+    const char *id; /* at most 64 bytes, without '/': names of pictures are made from it */
+    const char *status, *message, *method, *method_version, *device, *device_name, *feed;
+    const char *scene, *order, *seed, *options; /* options: read by options.h */
+    /* the workload; k is NAN for methods that keep no k nearest */
     double width_px, height_px, n, k, r, pixel_density, fragment_probability, tessellation;
+    /* times, in milliseconds */
     double launches, samples, frame_ms, frame_ms_low, frame_ms_high;
     double clear_ms, count_ms, reference_ms, store_ms, resolve_ms, times_floor;
+    /* memory, fragments, errors */
     double bytes_allocated, bytes_predicted, bytes_used;
     double fragments_generated, fragments_stored, fragments_lost, missing, extra, misordered;
     double depth_ulp_max, rmse, psnr_db, max_abs, ssim, flip, truncation_rmse, distinct_images;
     double frame_wall_ms, fragments_per_s;
-    double total_rmse;      /* from samples.csv; rmse where the run has none */
+    double total_rmse; /* from samples.csv; rmse where the run has none */
+
+    /* what follows from the row and from manifest.json */
     fm_case_status outcome; /* of the word `status` */
-    fm_method_info look;
-    uint64_t figures; /* bit i: figure_names[i] holds it */
+    fm_method_info look;    /* of the method; its id for a title where the manifest lacks it */
+    uint64_t figures;       /* bit i: figures.csv lists the case for figure_names[i] */
     bool is_ok;
     bool is_measured;  /* has a time, and its error: ok, or wrong_image */
     bool is_simulated; /* feed frames: counts and models, no times */
-    bool is_software;  /* the device */
+    bool is_software;  /* the device; also where the manifest does not list it yet */
 } fm_case_row;
 
 /* One row of the table each, in its order. FM_INVALID: a column is missing, a number is none, or a

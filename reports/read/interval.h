@@ -4,8 +4,9 @@
 
 #include "base/stats.h"
 
-/* Arithmetic of independent medians with 95 % intervals: limits are recovered from the parts'
- * (Donner and Zou's MOVER), for ratios of their logarithms. */
+/* Both are of independent medians with 95 % intervals. The limits are recovered from those of the
+ * parts (Donner and Zou's MOVER), of a ratio from their logarithms. Where the divisor's interval
+ * holds 0, that of the ratio is infinite. */
 fm_interval interval_ratio(fm_interval dividend, fm_interval divisor);
 fm_interval interval_difference(fm_interval minuend, fm_interval subtrahend);
 

@@ -1,5 +1,7 @@
-/* manifest.json: what ran, where, and how methods look. Missing fields are empty, unknown ones are
- * ignored; a file that is not a JSON object, or whose parts have the wrong shape, is damaged. */
+/* manifest.json: what ran, where, and how methods look.
+ *
+ * Missing fields are "" or false, unknown ones are ignored: manifests of older and newer versions
+ * are read. A file that is not a JSON object, or whose parts have the wrong shape, is damaged. */
 #ifndef FM_PROVENANCE_H
 #define FM_PROVENANCE_H
 
@@ -9,16 +11,19 @@
 #include "base/error.h"
 #include "fragmark/method.h"
 
+/* A method of the run, as its descriptor described it. */
 typedef struct fm_method_info {
-    const char *id, *title, *citation, *version;
-    fm_family family;
+    const char *id, *title, *citation, *version; /* title: the id where it has none */
+    fm_family family;                            /* gives the colour in charts */
     fm_marker marker;
     bool is_dashed;
-    bool is_racy, is_exact, is_control, is_approximate;
+    bool is_racy, is_exact, is_approximate; /* traits */
+    bool is_control;                        /* a control, or the floor */
 } fm_method_info;
 
 typedef struct fm_device_info {
-    const char *selector, *name, *driver, *api;
+    const char *selector; /* as it was asked for: "vulkan:0" */
+    const char *name, *driver, *api;
     bool is_software;
 } fm_device_info;
 
@@ -43,7 +48,8 @@ typedef struct fm_provenance {
     void *json; /* holds all texts */
 } fm_provenance;
 
-/* FM_IO, FM_NO_MEMORY; FM_INVALID: damaged, naming file and line or field. */
+/* FM_IO, FM_NO_MEMORY; FM_INVALID: damaged, naming file and line or field. The caller closes
+ * *manifest, which is NULL on failure. */
 fm_status provenance_read(fm_provenance **manifest, const char *path, fm_error *err);
 void provenance_close(fm_provenance *manifest);
 

@@ -1,5 +1,11 @@
-/* The result files of one directory, read and checked: manifest.json, summary.csv, samples.csv,
- * and figures.csv and memory.csv where they are. */
+/* The result files of a run, read and checked.
+ *
+ * The room reports/read turns files into data: result files (this header, cases.h, samples.h,
+ * table.h, provenance.h), figure files and their claims (paper_figure.h, claim.h), and kept
+ * pictures (picture.h). It also answers what all readers ask of cases: their numbers
+ * (case_metrics.h), options and workloads, and which of them may stand in one chart (group.h). A
+ * damaged file is refused here with its line; the rooms above need not check again. Nothing here
+ * draws, judges, or writes a file, and nothing here links VTK, OpenImageIO or librsvg. */
 #ifndef FM_RESULT_FILES_H
 #define FM_RESULT_FILES_H
 
@@ -8,28 +14,33 @@
 #include <stdint.h>
 
 #include "base/error.h"
-#include "base/stats.h"
 #include "provenance.h"
 #include "samples.h"
 #include "table.h"
 
-enum { FM_RESULT_FIGURES = 64 };
+enum { FM_RESULT_FIGURES = 64 }; /* a bit each in fm_case_row.figures */
 
+/* One run. Everything in it lives until it is closed, and so do all texts that it hands out. */
 typedef struct fm_result_files {
-    const char *directory; /* borrowed */
+    const char *directory; /* borrowed: it must live as long */
     fm_provenance *manifest;
-    fm_table *summary, *sample_table;
-    fm_table *figures; /* figures.csv; NULL: there is none */
-    fm_table *memory;  /* memory.csv; NULL: there is none */
-    const char *figure_names[FM_RESULT_FIGURES];
+    fm_table *summary;      /* summary.csv */
+    fm_table *sample_table; /* samples.csv */
+    fm_table *figures;      /* figures.csv: which figure a case is for; NULL: there is none */
+    fm_table *memory;       /* memory.csv: tables of memory by formula; NULL: there is none */
+    const char *figure_names[FM_RESULT_FIGURES]; /* [figure_count], as figures.csv has them */
     size_t figure_count;
-    fm_case_row *cases;
+    fm_case_row *cases; /* [count]: the rows of summary.csv, in its order */
     size_t count;
     fm_sample_rows samples;
 } fm_result_files;
 
-/* FM_IO: a file cannot be read. FM_INVALID: damaged, naming file and line. The caller closes. */
+/* Reads DIRECTORY/manifest.json, summary.csv and samples.csv, which must be there, and figures.csv
+ * and memory.csv where they are. FM_IO: a file cannot be read. FM_INVALID: damaged, naming file and
+ * line; a path that is too long; more than FM_RESULT_FIGURES figures. FM_NO_MEMORY. On failure
+ * *results is NULL. The caller closes it. */
 fm_status result_files_read(fm_result_files **results, const char *directory, fm_error *err);
+/* Takes NULL too. */
 void result_files_close(fm_result_files *results);
 
 /* The bit of a figure in fm_case_row.figures; 0: figures.csv does not name it. */

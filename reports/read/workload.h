@@ -5,10 +5,12 @@
 #include "base/text.h"
 #include "result_files.h"
 
-/* Same scene, size, fragments, device and feed, but for the free columns. */
+/* Same scene, size, fragments, device and feed, but for the free columns (NULL: none). An empty k
+ * or n agrees with any; where n = r k, n is free with k. */
 bool workload_same(const fm_case_row *a, const fm_case_row *b, const fm_text_list *free_columns);
 
-/* ", n 128, k 8": the columns in which the cases differ that takes[results->count] marks. */
+/* ", n 128, k 8": of the case, the columns in which the cases differ that takes[results->count]
+ * marks; NULL: nothing. What does not fit is left out. */
 void workload_name(char *name, size_t room, const fm_result_files *results, const bool *takes,
                    const fm_case_row *result);
 
