@@ -211,11 +211,12 @@ char *cli_axes_help(int key, const char *text, void *input)
 
 void arguments_free(fm_arguments *arguments)
 {
-    fm_names *const lists[] = { &arguments->positional,    &arguments->methods, &arguments->scenes,
-                                &arguments->devices,       &arguments->feeds,   &arguments->axes,
-                                &arguments->plugin_folders };
+    fm_text_list *const lists[] = { &arguments->positional,    &arguments->methods,
+                                    &arguments->scenes,        &arguments->devices,
+                                    &arguments->feeds,         &arguments->axes,
+                                    &arguments->plugin_folders };
     for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++)
-        names_free(lists[i]);
+        text_list_free(lists[i]);
 }
 
 fm_status arguments_expand(fm_plan *plan, const fm_plugin_list *plugins,
@@ -224,11 +225,11 @@ fm_status arguments_expand(fm_plan *plan, const fm_plugin_list *plugins,
     const fm_plan_request request = {
         .known_devices = arguments->cli->devices,
         .spec = spec,
-        .methods = names_list(&arguments->methods),
-        .scenes = names_list(&arguments->scenes),
-        .devices = names_list(&arguments->devices),
-        .feeds = names_list(&arguments->feeds),
-        .axes = names_list(&arguments->axes),
+        .methods = text_list_items(&arguments->methods),
+        .scenes = text_list_items(&arguments->scenes),
+        .devices = text_list_items(&arguments->devices),
+        .feeds = text_list_items(&arguments->feeds),
+        .axes = text_list_items(&arguments->axes),
     };
     return plan_expand(plan, &request, plugins, err);
 }
@@ -237,7 +238,7 @@ fm_status arguments_plan(fm_plan *plan, fm_plugin_list *plugins, const fm_argume
                          const char *const *specs, fm_error *err)
 {
     *plan = (fm_plan){ 0 };
-    fm_status status = plugin_list_open(plugins, names_list(&arguments->plugin_folders), err);
+    fm_status status = plugin_list_open(plugins, text_list_items(&arguments->plugin_folders), err);
     for (size_t i = 0; status == FM_OK && (i == 0 || specs[i] != NULL); i++) {
         fm_plan one = { 0 };
         status = arguments_expand(&one, plugins, arguments, specs[i], err);

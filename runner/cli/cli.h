@@ -9,6 +9,7 @@
 #include <stdio.h>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "device/registry.h"
 #include "plan/plan.h"
 
@@ -45,24 +46,17 @@ int cli_fail(const fm_cli *cli, const fm_error *err);
 /* Prints JSON and drops it. */
 int cli_print_json(const fm_cli *cli, json_t *object);
 
-/* A growing list of texts that ends with NULL. Starts as {0}. */
-typedef struct fm_names {
-    char **names; /* never NULL after names_add; owned */
-    size_t count;
-} fm_names;
-fm_status names_add(fm_names *names, const char *name, fm_error *err);
-/* Each part between commas; empty parts are FM_INVALID. */
-fm_status names_add_split(fm_names *names, const char *list, fm_error *err);
-/* A list that ends with NULL also when nothing was added. */
-const char *const *names_list(const fm_names *names);
-void names_free(fm_names *names);
+/* Adds a name. FM_NO_MEMORY. */
+fm_status names_add(fm_text_list *names, const char *name, fm_error *err);
+/* Adds each part between commas; empty parts are FM_INVALID. */
+fm_status names_add_split(fm_text_list *names, const char *list, fm_error *err);
 
 /* What run, plan and reproduce take. */
 typedef struct fm_arguments {
     const fm_cli *cli;
     bool takes_figures;
-    fm_names positional; /* one spec; figures where it takes them */
-    fm_names methods, scenes, devices, feeds, axes, plugin_folders;
+    fm_text_list positional; /* one spec; figures where it takes them */
+    fm_text_list methods, scenes, devices, feeds, axes, plugin_folders;
     const char *directory; /* -o; NULL: not given */
     const char *reference; /* for the report: NAME, DIR or none; NULL: not given */
     uint32_t timeout_s;
@@ -116,7 +110,7 @@ typedef struct fm_figure_list {
 fm_status figures_list(fm_figure_list *list, fm_error *err);
 void figures_free(fm_figure_list *list);
 /* Adds the ids of the figure's claims; a damaged file has none. FM_NO_MEMORY. */
-fm_status figure_add_claims(fm_names *names, const fm_figure *figure, fm_error *err);
+fm_status figure_add_claims(fm_text_list *names, const fm_figure *figure, fm_error *err);
 /* Whether the figure makes the claim of this id. */
 bool figure_has_claim(const fm_figure *figure, const char *claim);
 /* How much of a figure is measured: its `run`; `smoke` over it; or `large` too, which takes a
@@ -124,7 +118,7 @@ bool figure_has_claim(const fm_figure *figure, const char *claim);
 typedef enum fm_figure_size { FM_FIGURE_FULL, FM_FIGURE_SMOKE, FM_FIGURE_LARGE } fm_figure_size;
 /* Writes what a figure runs as spec files in folder, one for each block of `run` (a mapping, or a
  * list of them), and adds their paths. FM_UNSUPPORTED: the figure has no `run`. */
-fm_status figure_write_specs(fm_names *paths, const char *folder, const fm_figure *figure,
+fm_status figure_write_specs(fm_text_list *paths, const char *folder, const fm_figure *figure,
                              fm_figure_size size, fm_error *err);
 
 /* What run and reproduce end with; all of it is borrowed. */

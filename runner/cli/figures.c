@@ -30,7 +30,7 @@ static void read_head(fm_figure *figure)
     figure_file_close(&file);
 }
 
-fm_status figure_add_claims(fm_names *names, const fm_figure *figure, fm_error *err)
+fm_status figure_add_claims(fm_text_list *names, const fm_figure *figure, fm_error *err)
 {
     fm_figure_file file;
     fm_error ignored = { 0 };
@@ -47,13 +47,13 @@ fm_status figure_add_claims(fm_names *names, const fm_figure *figure, fm_error *
 
 bool figure_has_claim(const fm_figure *figure, const char *claim)
 {
-    fm_names ids = { 0 };
+    fm_text_list ids = { 0 };
     fm_error below = { 0 };
     bool is_found = false;
     figure_add_claims(&ids, figure, &below);
     for (size_t i = 0; i < ids.count && !is_found; i++)
-        is_found = strcmp(ids.names[i], claim) == 0;
-    names_free(&ids);
+        is_found = strcmp(ids.items[i], claim) == 0;
+    text_list_free(&ids);
     return is_found;
 }
 
@@ -195,7 +195,7 @@ static fm_status write_spec(const char *path, const fm_figure *figure, const fm_
 }
 
 /* The blocks under one key: a mapping is one block. */
-static fm_status write_blocks(fm_names *paths, const char *folder, const fm_figure *figure,
+static fm_status write_blocks(fm_text_list *paths, const char *folder, const fm_figure *figure,
                               const fm_yaml *blocks, const fm_yaml *smoke, fm_error *err)
 {
     char path[2 * FM_PATH_MAX_BYTES];
@@ -212,7 +212,7 @@ static fm_status write_blocks(fm_names *paths, const char *folder, const fm_figu
     return status;
 }
 
-fm_status figure_write_specs(fm_names *paths, const char *folder, const fm_figure *figure,
+fm_status figure_write_specs(fm_text_list *paths, const char *folder, const fm_figure *figure,
                              fm_figure_size size, fm_error *err)
 {
     fm_figure_file file;

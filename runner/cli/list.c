@@ -12,7 +12,7 @@ enum { KEY_JSON = 512, KEY_MARKDOWN, KEY_PLUGINS, DEVICES_MAX = 32 };
 typedef struct list_arguments {
     const fm_cli *cli;
     const char *what;
-    fm_names plugin_folders;
+    fm_text_list plugin_folders;
     bool json;
     bool markdown;
 } list_arguments;
@@ -67,7 +67,7 @@ static int list_methods(const list_arguments *arguments)
     fm_error err = { 0 };
     const fm_cli *cli = arguments->cli;
     json_t *rows = json_array();
-    if (plugin_list_open(&plugins, names_list(&arguments->plugin_folders), &err) != FM_OK) {
+    if (plugin_list_open(&plugins, text_list_items(&arguments->plugin_folders), &err) != FM_OK) {
         json_decref(rows);
         return cli_fail(cli, &err);
     }
@@ -255,6 +255,6 @@ int cli_list(const fm_cli *cli, int argc, char **argv)
     for (int i = 0; i < LIST_COUNT; i++)
         if (strcmp(arguments.what, lists[i].name) == 0)
             code = lists[i].list(&arguments);
-    names_free(&arguments.plugin_folders);
+    text_list_free(&arguments.plugin_folders);
     return code;
 }

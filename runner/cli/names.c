@@ -3,25 +3,25 @@
 
 #include "cli.h"
 
-static fm_status add_part(fm_names *names, const char *name, size_t length, fm_error *err)
+static fm_status fail(fm_error *err)
 {
-    char **grown = reallocarray(names->names, names->count + 2, sizeof *grown);
-    if (grown == NULL)
-        return fm_fail(err, FM_NO_MEMORY, "no memory for the arguments");
-    names->names = grown;
-    grown[names->count] = strndup(name, length);
-    if (grown[names->count] == NULL)
-        return fm_fail(err, FM_NO_MEMORY, "no memory for the arguments");
-    grown[++names->count] = NULL;
-    return FM_OK;
+    return fm_fail(err, FM_NO_MEMORY, "no memory for the arguments");
 }
 
-fm_status names_add(fm_names *names, const char *name, fm_error *err)
+fm_status names_add(fm_text_list *names, const char *name, fm_error *err)
 {
-    return add_part(names, name, strlen(name), err);
+    return text_list_add(names, name) ? FM_OK : fail(err);
 }
 
-fm_status names_add_split(fm_names *names, const char *list, fm_error *err)
+static fm_status add_part(fm_text_list *names, const char *part, size_t length, fm_error *err)
+{
+    char *name = strndup(part, length);
+    const fm_status status = name != NULL ? names_add(names, name, err) : fail(err);
+    free(name);
+    return status;
+}
+
+fm_status names_add_split(fm_text_list *names, const char *list, fm_error *err)
 {
     const char *part = list;
     for (;;) {
@@ -33,18 +33,4 @@ fm_status names_add_split(fm_names *names, const char *list, fm_error *err)
             return status;
         part += length + 1;
     }
-}
-
-const char *const *names_list(const fm_names *names)
-{
-    static const char *const none[] = { NULL };
-    return names->names != NULL ? (const char *const *)names->names : none;
-}
-
-void names_free(fm_names *names)
-{
-    for (size_t i = 0; i < names->count; i++)
-        free(names->names[i]);
-    free(names->names);
-    *names = (fm_names){ 0 };
 }

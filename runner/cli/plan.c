@@ -159,7 +159,7 @@ int cli_plan(const fm_cli *cli, int argc, char **argv)
     fm_plugin_list plugins = { 0 };
     fm_error err = { 0 };
     argp_parse(&argp, argc, argv, 0, NULL, &arguments);
-    if (arguments_plan(&plan, &plugins, &arguments, names_list(&arguments.positional), &err) !=
+    if (arguments_plan(&plan, &plugins, &arguments, text_list_items(&arguments.positional), &err) !=
         FM_OK)
         code = cli_fail(cli, &err);
     else

@@ -99,7 +99,7 @@ static bool is_meant(const fm_figure *figure, const char *name)
 }
 
 /* All that may be asked for: papers, figures, claims, and "all". */
-static fm_status add_known_names(fm_names *known, const fm_figure_list *list, fm_error *err)
+static fm_status add_known_names(fm_text_list *known, const fm_figure_list *list, fm_error *err)
 {
     fm_status status = names_add(known, "all", err);
     for (size_t i = 0; i < list->count && status == FM_OK; i++) {
@@ -117,25 +117,25 @@ static fm_status add_known_names(fm_names *known, const fm_figure_list *list, fm
 
 static fm_status no_figure(const fm_figure_list *list, const char *name, fm_error *err)
 {
-    fm_names known = { 0 };
+    fm_text_list known = { 0 };
     if (list->count == 0)
         return fm_fail(err, FM_INVALID,
                        "no figures found; FRAGMARK_FIGURE_PATH names their folder");
     fm_status status = add_known_names(&known, list, err);
     if (status == FM_OK) {
-        const char *nearest = text_nearest(name, (const char *const *)known.names, known.count);
+        const char *nearest = text_nearest(name, text_list_items(&known), known.count);
         status = fm_fail(err, FM_INVALID,
                          "no figure, paper or claim '%s'; %s '%s' (`fragmark list figures`)", name,
                          nearest != NULL ? "the nearest is" : "there is",
                          nearest != NULL ? nearest : list->figures[0].id);
     }
-    names_free(&known);
+    text_list_free(&known);
     return status;
 }
 
 /* Marks what the arguments mean; a name that means nothing is an error. is_chosen: one for each
  * figure, or NULL when there was no memory for it. */
-static fm_status choose(bool *is_chosen, const fm_names *wanted, const fm_figure_list *list,
+static fm_status choose(bool *is_chosen, const fm_text_list *wanted, const fm_figure_list *list,
                         fm_error *err)
 {
     if (is_chosen == NULL)
@@ -143,10 +143,10 @@ static fm_status choose(bool *is_chosen, const fm_names *wanted, const fm_figure
     for (size_t i = 0; i < wanted->count; i++) {
         bool is_known = false;
         for (size_t j = 0; j < list->count; j++)
-            if (is_meant(&list->figures[j], wanted->names[i]))
+            if (is_meant(&list->figures[j], wanted->items[i]))
                 is_chosen[j] = is_known = true;
         if (!is_known)
-            return no_figure(list, wanted->names[i], err);
+            return no_figure(list, wanted->items[i], err);
     }
     return FM_OK;
 }
@@ -154,8 +154,8 @@ static fm_status choose(bool *is_chosen, const fm_names *wanted, const fm_figure
 /* What this command works on: the chosen figures that have something to run, and their specs. */
 typedef struct spec_files {
     char folder[FM_PATH_MAX_BYTES];
-    fm_names ids, paths;
-    fm_names owners; /* of each path: a figure's id */
+    fm_text_list ids, paths;
+    fm_text_list owners; /* of each path: a figure's id */
     const fm_figure_list *list;
     const bool *is_chosen; /* [list->count] */
     const char *command;
@@ -213,12 +213,12 @@ static fm_status open_specs(spec_files *specs, fm_error *err)
 static void close_specs(spec_files *specs)
 {
     for (size_t i = 0; i < specs->paths.count; i++)
-        unlink(specs->paths.names[i]);
+        unlink(specs->paths.items[i]);
     if (specs->folder[0] != '\0')
         rmdir(specs->folder);
-    names_free(&specs->ids);
-    names_free(&specs->paths);
-    names_free(&specs->owners);
+    text_list_free(&specs->ids);
+    text_list_free(&specs->paths);
+    text_list_free(&specs->owners);
 }
 
 /* DIR/specs: what was run, for the record. */
@@ -230,8 +230,8 @@ static void keep_specs(const spec_files *specs, const char *directory)
     for (size_t i = 0; i < specs->paths.count; i++) {
         char *bytes = NULL;
         size_t count = 0;
-        snprintf(path, sizeof path, "%s/specs%s", directory, strrchr(specs->paths.names[i], '/'));
-        if (text_read_file(&bytes, &count, specs->paths.names[i], 1u << 20, NULL) == FM_OK)
+        snprintf(path, sizeof path, "%s/specs%s", directory, strrchr(specs->paths.items[i], '/'));
+        if (text_read_file(&bytes, &count, specs->paths.items[i], 1u << 20, NULL) == FM_OK)
             text_write_file(path, bytes, count, NULL);
         free(bytes);
     }
@@ -280,8 +280,8 @@ static fm_status assign_cases(fm_plan *plan, const char *directory, const spec_f
         plan->cases[i].no_image = true;
     for (size_t i = 0; i < specs->paths.count && status == FM_OK; i++) {
         fm_plan of_figure = { 0 };
-        const char *id = specs->owners.names[i];
-        status = arguments_expand(&of_figure, plugins, arguments, specs->paths.names[i], err);
+        const char *id = specs->owners.items[i];
+        status = arguments_expand(&of_figure, plugins, arguments, specs->paths.items[i], err);
         for (size_t j = 0; j < of_figure.count && status == FM_OK; j++)
             text_add(&csv, "%s,%s\n", id, of_figure.cases[j].id);
         choose_pictures(plan, &of_figure, has_pictures(specs->list, id));
@@ -320,9 +320,9 @@ static fm_status make_plan(fm_plan *plan, fm_plugin_list *plugins, const fm_argu
                            const spec_files *specs, fm_error *err)
 {
     if (specs->paths.count > 0)
-        return arguments_plan(plan, plugins, arguments, names_list(&specs->paths), err);
+        return arguments_plan(plan, plugins, arguments, text_list_items(&specs->paths), err);
     plan->launches = 1;
-    return plugin_list_open(plugins, names_list(&arguments->plugin_folders), err);
+    return plugin_list_open(plugins, text_list_items(&arguments->plugin_folders), err);
 }
 
 static int run_specs(const spec_files *specs, const fm_arguments *arguments)
@@ -338,7 +338,7 @@ static int run_specs(const spec_files *specs, const fm_arguments *arguments)
                                 .command = specs->command,
                                 .plan = &plan,
                                 .plugins = &plugins,
-                                .figures = names_list(&specs->ids),
+                                .figures = text_list_items(&specs->ids),
                                 .memory = &memory };
     if (make_plan(&plan, &plugins, arguments, specs, &err) != FM_OK ||
         make_tables(&memory, arguments->cli, specs, &plugins, &err) != FM_OK ||

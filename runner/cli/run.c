@@ -185,7 +185,7 @@ int cli_run(const fm_cli *cli, int argc, char **argv)
     char *command = cli_command_text(argc, argv);
     argp_parse(&argp, argc, argv, 0, NULL, &arguments);
     cli_directory(directory, &arguments);
-    if (arguments_plan(&plan, &plugins, &arguments, names_list(&arguments.positional), &err) !=
+    if (arguments_plan(&plan, &plugins, &arguments, text_list_items(&arguments.positional), &err) !=
         FM_OK)
         code = cli_fail(cli, &err);
     else {
