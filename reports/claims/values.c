@@ -5,7 +5,6 @@
 
 #include "read/case_metrics.h"
 
-enum { SAMPLES_WANTED = 5 };
 /* What timings scatter by from process to process where a processor does the work. */
 static const double few_samples_share = 0.15;
 
@@ -38,7 +37,7 @@ fm_interval value_measured(bool *has_few_samples, const fm_claim_selection *sele
     if (samples == 0)
         samples = isnan(result->samples) ? 0 : (size_t)result->samples;
     const bool is_single = result->is_software && result->launches < 2.0;
-    if (!is_time(&selection->metrics) || (samples >= SAMPLES_WANTED && !is_single))
+    if (!is_time(&selection->metrics) || (samples >= FM_SAMPLES_WANTED && !is_single))
         return value;
     *has_few_samples = true;
     return widened(value);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "html.h"
+#include "read/case_metrics.h"
 #include "read/family.h"
 #include "read/group.h"
 
@@ -14,8 +15,6 @@ static const char page_css[] = {
 static const char page_js[] = {
 #include "page_js.inc"
 };
-
-enum { FEW_SAMPLES = 5 };
 
 static void add_fact(fm_text *page, const char *name, const char *value)
 {
@@ -137,7 +136,7 @@ static bool hides_races(const fm_case_row *result)
 
 static bool has_few_samples(const fm_case_row *result)
 {
-    return result->is_measured && !result->is_simulated && result->samples < FEW_SAMPLES;
+    return result->is_measured && !result->is_simulated && result->samples < FM_SAMPLES_WANTED;
 }
 
 static bool is_single_launch(const fm_case_row *result)

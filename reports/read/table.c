@@ -72,27 +72,28 @@ static fm_status read_cell(char **cell, reader *in, fm_error *err)
 static fm_status read_header(fm_table *table, reader *in, fm_error *err)
 {
     const char *names[FM_TABLE_COLUMNS] = { NULL };
+    size_t count = 0;
     do {
         char *name = NULL;
-        if (table->column_count == FM_TABLE_COLUMNS)
+        if (count == FM_TABLE_COLUMNS)
             return fm_fail(err, FM_INVALID, "%s:1: more than %d columns", in->path,
                            FM_TABLE_COLUMNS);
         fm_status status = read_cell(&name, in, err);
         if (status != FM_OK)
             return status;
         if (name == NULL || name[0] == '\0')
-            return fm_fail(err, FM_INVALID, "%s:1: column %zu has no name", in->path,
-                           table->column_count + 1);
-        for (size_t i = 0; i < table->column_count; i++)
+            return fm_fail(err, FM_INVALID, "%s:1: column %zu has no name", in->path, count + 1);
+        for (size_t i = 0; i < count; i++)
             if (strcmp(names[i], name) == 0)
                 return fm_fail(err, FM_INVALID, "%s:1: column \"%s\" appears twice", in->path,
                                name);
-        names[table->column_count++] = name;
+        names[count++] = name;
     } while (!in->row_ended);
-    table->names = calloc(table->column_count, sizeof *table->names);
+    table->names = calloc(count, sizeof *table->names);
     if (table->names == NULL)
         return fm_fail(err, FM_NO_MEMORY, "%s: header", in->path);
-    memcpy(table->names, names, table->column_count * sizeof names[0]);
+    memcpy(table->names, names, count * sizeof names[0]);
+    table->column_count = count;
     return FM_OK;
 }
 
