@@ -22,7 +22,8 @@ static void note_missing(points_job *job, const fm_case_row *result, const char 
         return;
     snprintf(job->points->missing, sizeof job->points->missing, "%.60s%s%.12g: %.120s",
              result->look.title != NULL ? result->look.title : result->method,
-             isnan(result->k) ? " n " : " k ", isnan(result->k) ? result->n : result->k, why);
+             isnan(result->k) ? " n " : " k ",
+             isnan(result->k) ? result->metric[FM_METRIC_N] : result->k, why);
 }
 
 /* Why a row has no value. */

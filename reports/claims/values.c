@@ -1,7 +1,6 @@
 #include "values.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "read/case_metrics.h"
 
@@ -10,13 +9,9 @@ static const double few_samples_share = 0.15;
 
 static bool is_time(const fm_text_list *metrics)
 {
-    for (size_t i = 0; i < metrics->count; i++) {
-        if (strncmp(metrics->items[i], "fps", 3) == 0)
+    for (size_t i = 0; i < metrics->count; i++)
+        if (metric_is_time(metrics->items[i]))
             return true;
-        const size_t length = strlen(metrics->items[i]);
-        if (length > 3 && strcmp(metrics->items[i] + length - 3, "_ms") == 0)
-            return true;
-    }
     return false;
 }
 
@@ -35,8 +30,10 @@ fm_interval value_measured(bool *has_few_samples, const fm_claim_selection *sele
         case_interval(&samples, rows->results, result, text_list_items(&selection->metrics),
                       selection->metrics.count);
     if (samples == 0)
-        samples = isnan(result->samples) ? 0 : (size_t)result->samples;
-    const bool is_single = result->is_software && result->launches < 2.0;
+        samples = isnan(result->metric[FM_METRIC_SAMPLES])
+                      ? 0
+                      : (size_t)result->metric[FM_METRIC_SAMPLES];
+    const bool is_single = result->is_software && result->metric[FM_METRIC_LAUNCHES] < 2.0;
     if (!is_time(&selection->metrics) || (samples >= FM_SAMPLES_WANTED && !is_single))
         return value;
     *has_few_samples = true;
@@ -46,8 +43,9 @@ fm_interval value_measured(bool *has_few_samples, const fm_claim_selection *sele
 fm_interval value_by_formula(const fm_claim_selection *selection, const fm_case_row *result)
 {
     const double pixels = result->width_px * result->height_px;
-    const double factors[FM_FORMULA_TERMS] = { 1.0, pixels, pixels * result->k, pixels * result->n,
-                                               result->fragments_generated };
+    const double factors[FM_FORMULA_TERMS] = { 1.0, pixels, pixels * result->k,
+                                               pixels * result->metric[FM_METRIC_N],
+                                               result->metric[FM_METRIC_FRAGMENTS_GENERATED] };
     double sum = 0.0;
     for (int i = 0; i < FM_FORMULA_TERMS; i++)
         if (selection->formula[i] != 0.0)

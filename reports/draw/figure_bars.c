@@ -31,10 +31,10 @@ static double add_stack(fm_figure_job *job, bar_place *place, const fm_case_row 
 {
     double top = 0.0;
     for (size_t i = 0; i <= job->from->parts.count; i++) {
-        double value =
-            i < job->from->parts.count
-                ? case_metric(job->results, result, job->from->parts.items[i])
-                : result->frame_ms - top; /* own passes, and what medians of parts leave */
+        double value = i < job->from->parts.count
+                           ? case_metric(job->results, result, job->from->parts.items[i])
+                           : result->metric[FM_METRIC_FRAME_MS] -
+                                 top; /* own passes, and what medians of parts leave */
         if (!isfinite(value) || value <= (i < job->from->parts.count ? 0.0 : 0.02 * top))
             continue;
         fm_bar *bar = chart_add_bar(job->chart);
@@ -150,9 +150,7 @@ static void add_part_keys(fm_figure_job *job)
 
 static bool has_times(const fm_figure_job *job)
 {
-    const char *first = job->from->parts.items[0];
-    const size_t length = strlen(first);
-    return length > 3 && strcmp(first + length - 3, "_ms") == 0;
+    return metric_is_time(job->from->parts.items[0]);
 }
 
 static bool open_marks(bar_place *place, fm_figure_job *job)

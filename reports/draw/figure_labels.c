@@ -1,4 +1,5 @@
 #include "figure_labels.h"
+#include "model/metrics.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -27,15 +28,10 @@ size_t figure_add_upright(fm_chart *chart, double x_px, const char *text)
     return (size_t)chart_text_width_px(label->text, 11);
 }
 
-/* Titles of what is drawn, where the column's name is not enough. */
+/* Titles of keys, where the name is not enough. Metrics have titles of their own. */
 static const struct {
     const char *name, *title, *unit;
-} quantities[] = {
-    { "frame_ms", "frame time", "ms" },
-    { "fps", "frames per second", "" },
-    { "mib", "memory", "MiB" },
-    { "fps_per_mib", "frames per second and MiB", "" },
-    { "reference_ms", "referencing step", "ms" },
+} keys[] = {
     { "k", "k (fragments kept per pixel)", "" },
     { "n", "n (layers)", "" },
     { "pixel_density", "pixel density", "" },
@@ -43,41 +39,38 @@ static const struct {
     { "width_px", "width of the viewport", "px" },
 };
 
-static void quantity_title(char title[128], const char *name, const char *unit)
+static void quantity_title(char title[128], const char *name)
 {
-    for (size_t i = 0; i < sizeof quantities / sizeof quantities[0]; i++)
-        if (strcmp(quantities[i].name, name) == 0) {
-            name = quantities[i].title;
-            unit = quantities[i].unit;
+    const fm_metric_info *metric = metric_describe(name);
+    const char *unit = metric != NULL ? metric->unit : "";
+    fm_metric own;
+    if (metric_find(&own, name)) /* families keep the name, which says whose they are */
+        name = metric->title;
+    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
+        if (strcmp(keys[i].name, name) == 0) {
+            name = keys[i].title;
+            unit = keys[i].unit;
             break;
         }
     snprintf(title, 128, "%.80s%s%s%s", name, unit[0] == '\0' ? "" : " [", unit,
              unit[0] == '\0' ? "" : "]");
 }
 
-static const char *unit_of(const char *metric)
-{
-    size_t length = strlen(metric);
-    if (length > 3 && strcmp(metric + length - 3, "_ms") == 0)
-        return "ms";
-    return strncmp(metric, "bytes_", 6) == 0 ? "bytes" : "";
-}
-
 void figure_title_column(char title[128], const char *column)
 {
-    quantity_title(title, column, "");
+    quantity_title(title, column);
 }
 
 void figure_title_quantity(char title[128], const fm_text_list *metrics)
 {
-    quantity_title(title, metrics->items[0], unit_of(metrics->items[0]));
+    quantity_title(title, metrics->items[0]);
 }
 
 void figure_title_ratio(char title[128], const fm_figure_job *job)
 {
     char own[128];
     const fm_method_info look = figure_look(job, job->from->ratio_to);
-    quantity_title(own, job->from->y, "");
+    quantity_title(own, job->from->y);
     snprintf(title, 128, "%.*s / that of %.50s", (int)strcspn(own, "["), own,
              look.title != NULL ? look.title : job->from->ratio_to);
 }

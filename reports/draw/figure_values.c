@@ -43,7 +43,7 @@ bool figure_is_by_scene(const fm_figure_job *job)
 /* Where n = r k, the layers of a case without a k tell which k the others have; else NAN. */
 static double k_of_workload(const fm_case_row *result)
 {
-    return result->n / result->r;
+    return result->metric[FM_METRIC_N] / result->r;
 }
 
 bool figure_is_level(const fm_figure_job *job, const fm_case_row *result)

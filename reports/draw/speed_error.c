@@ -12,12 +12,15 @@ static const fm_colour frontier_grey = { 205, 205, 205 };
 
 static double error_of(const fm_case_row *result)
 {
-    return result->total_rmse <= FM_EXACT_RMSE ? 0.0 : result->total_rmse;
+    return result->metric[FM_METRIC_TOTAL_RMSE] <= FM_EXACT_RMSE
+               ? 0.0
+               : result->metric[FM_METRIC_TOTAL_RMSE];
 }
 
 static bool has_point(const fm_case_row *result)
 {
-    return result->is_measured && !result->is_simulated && isfinite(result->total_rmse);
+    return result->is_measured && !result->is_simulated &&
+           isfinite(result->metric[FM_METRIC_TOTAL_RMSE]);
 }
 
 static bool is_candidate(const fm_case_row *result)
@@ -34,8 +37,10 @@ void speed_error_frontier(bool *on, const fm_group *group)
             const fm_case_row *other = group->cases[j];
             if (!is_candidate(other))
                 continue;
-            bool as_good = other->frame_ms <= one->frame_ms && error_of(other) <= error_of(one);
-            bool better = other->frame_ms < one->frame_ms || error_of(other) < error_of(one);
+            bool as_good = other->metric[FM_METRIC_FRAME_MS] <= one->metric[FM_METRIC_FRAME_MS] &&
+                           error_of(other) <= error_of(one);
+            bool better = other->metric[FM_METRIC_FRAME_MS] < one->metric[FM_METRIC_FRAME_MS] ||
+                          error_of(other) < error_of(one);
             on[i] = !(as_good && better);
         }
     }
@@ -71,7 +76,7 @@ static void add_frontier(fm_chart *chart, const fm_group *group, bool *on)
         if (on[i])
             chart_add_point(chart, series,
                             &(fm_point){ .x = error_of(group->cases[i]),
-                                         .y = group->cases[i]->frame_ms,
+                                         .y = group->cases[i]->metric[FM_METRIC_FRAME_MS],
                                          .low = NAN,
                                          .high = NAN });
     if (series->point_count < 2) {
@@ -87,10 +92,10 @@ static void add_frontier(fm_chart *chart, const fm_group *group, bool *on)
 
 static double marker_px(const fm_case_row *result, double bytes_most)
 {
-    if (!(result->bytes_allocated > 0.0) || !(bytes_most > 0.0))
+    if (!(result->metric[FM_METRIC_BYTES_ALLOCATED] > 0.0) || !(bytes_most > 0.0))
         return marker_least_px;
-    return marker_least_px +
-           (marker_most_px - marker_least_px) * sqrt(result->bytes_allocated / bytes_most);
+    return marker_least_px + (marker_most_px - marker_least_px) *
+                                 sqrt(result->metric[FM_METRIC_BYTES_ALLOCATED] / bytes_most);
 }
 
 /* The points of one method with one status: solid when ok, hollow when not. */
@@ -109,9 +114,9 @@ static void add_method(fm_chart *chart, const fm_group *group, size_t first, boo
             chart_add_point(chart, series,
                             &(fm_point){
                                 .x = error_of(result),
-                                .y = result->frame_ms,
-                                .low = result->frame_ms_low,
-                                .high = result->frame_ms_high,
+                                .y = result->metric[FM_METRIC_FRAME_MS],
+                                .low = result->metric[FM_METRIC_FRAME_MS_LOW],
+                                .high = result->metric[FM_METRIC_FRAME_MS_HIGH],
                                 .size_px = marker_px(result, bytes_most),
                             });
     }
@@ -147,7 +152,7 @@ static box marker_box(const fm_chart *chart, const fm_case_row *result, double b
 {
     double half = marker_px(result, bytes_most) / 2;
     double x = axis_position(&chart->x, error_of(result));
-    double y = axis_position(&chart->y, result->frame_ms);
+    double y = axis_position(&chart->y, result->metric[FM_METRIC_FRAME_MS]);
     return (box){ x - half, y - half, x + half, y + half };
 }
 
@@ -217,9 +222,9 @@ static size_t fit_axes(fm_chart *chart, const fm_group *group, double *values)
     axis_fit(&chart->x, values, points);
     for (size_t i = 0; i < group->count; i++)
         if (has_point(group->cases[i])) {
-            values[times++] = group->cases[i]->frame_ms;
-            values[times++] = group->cases[i]->frame_ms_low;
-            values[times++] = group->cases[i]->frame_ms_high;
+            values[times++] = group->cases[i]->metric[FM_METRIC_FRAME_MS];
+            values[times++] = group->cases[i]->metric[FM_METRIC_FRAME_MS_LOW];
+            values[times++] = group->cases[i]->metric[FM_METRIC_FRAME_MS_HIGH];
         }
     chart->y =
         (fm_axis){ .title = "frame time [ms]", .scale = FM_SCALE_LOG, .length_px = plot_height_px };
@@ -231,8 +236,8 @@ static double most_bytes(const fm_group *group)
 {
     double most = 0.0;
     for (size_t i = 0; i < group->count; i++)
-        if (has_point(group->cases[i]) && group->cases[i]->bytes_allocated > most)
-            most = group->cases[i]->bytes_allocated;
+        if (has_point(group->cases[i]) && group->cases[i]->metric[FM_METRIC_BYTES_ALLOCATED] > most)
+            most = group->cases[i]->metric[FM_METRIC_BYTES_ALLOCATED];
     return most;
 }
 

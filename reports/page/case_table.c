@@ -8,25 +8,27 @@
 #include "draw/speed_error.h"
 #include "html.h"
 
+/* A metric's name and meaning are its own; other columns have them here. */
 static const struct {
     const char *title, *help;
+    fm_metric metric; /* where title is NULL */
 } columns[] = {
-    { "&#9679;", "on the Pareto frontier" },
-    { "method", "as its paper names it" },
-    { "k", "fragments kept per pixel" },
-    { "n", "most fragments of any pixel" },
-    { "status", "ok, or why there is no time" },
-    { "frame_ms", "median of all samples: of the GPU passes together" },
-    { "interval", "95 % bootstrap interval of frame_ms" },
-    { "&times; floor", "store time over the floor's; of frames with timers=frame" },
-    { "memory", "bytes_allocated" },
-    { "missing", "wanted fragments that were not captured" },
-    { "extra", "captured fragments that the pixel does not have" },
-    { "misordered", "neighbours in the wrong order" },
-    { "rmse", "against the truth of what the method promises to keep" },
-    { "total_rmse", "against the picture of all fragments" },
-    { "truncation_rmse", "what keeping only k costs, whatever the method" },
-    { "message", "" }, /* last: left out where none has one */
+    { "&#9679;", "on the Pareto frontier", 0 },
+    { "method", "as its paper names it", 0 },
+    { "k", "fragments kept per pixel", 0 },
+    { .metric = FM_METRIC_N },
+    { "status", "ok, or why there is no time", 0 },
+    { .metric = FM_METRIC_FRAME_MS },
+    { "interval", "95 % bootstrap interval of frame_ms", 0 },
+    { .metric = FM_METRIC_TIMES_FLOOR },
+    { .metric = FM_METRIC_BYTES_ALLOCATED },
+    { .metric = FM_METRIC_MISSING },
+    { .metric = FM_METRIC_EXTRA },
+    { .metric = FM_METRIC_MISORDERED },
+    { .metric = FM_METRIC_RMSE },
+    { .metric = FM_METRIC_TOTAL_RMSE },
+    { .metric = FM_METRIC_TRUNCATION_RMSE },
+    { "message", "", 0 }, /* last: left out where none has one */
 };
 enum { COLUMN_COUNT = sizeof columns / sizeof columns[0] };
 
@@ -44,25 +46,27 @@ static void format_bytes(char text[24], double bytes)
 
 static void add_time(fm_text *page, const fm_case_row *result)
 {
-    html_add_number(page, 4, result->is_measured ? result->frame_ms : NAN);
-    if (result->is_measured && isfinite(result->frame_ms_low) && isfinite(result->frame_ms_high))
-        text_add(page, "<td class=n>[%.4g, %.4g]</td>", result->frame_ms_low,
-                 result->frame_ms_high);
+    html_add_number(page, 4, result->is_measured ? result->metric[FM_METRIC_FRAME_MS] : NAN);
+    if (result->is_measured && isfinite(result->metric[FM_METRIC_FRAME_MS_LOW]) &&
+        isfinite(result->metric[FM_METRIC_FRAME_MS_HIGH]))
+        text_add(page, "<td class=n>[%.4g, %.4g]</td>", result->metric[FM_METRIC_FRAME_MS_LOW],
+                 result->metric[FM_METRIC_FRAME_MS_HIGH]);
     else
         text_add(page, "<td></td>");
-    html_add_number(page, 3, result->times_floor);
+    html_add_number(page, 3, result->metric[FM_METRIC_TIMES_FLOOR]);
 }
 
 static void add_memory(fm_text *page, const fm_case_row *result)
 {
     char bytes[24];
-    if (isnan(result->bytes_allocated)) {
+    if (isnan(result->metric[FM_METRIC_BYTES_ALLOCATED])) {
         text_add(page, "<td></td>");
         return;
     }
-    format_bytes(bytes, result->bytes_allocated);
+    format_bytes(bytes, result->metric[FM_METRIC_BYTES_ALLOCATED]);
     text_add(page, "<td class=n data-v=\"%.17g\" title=\"%.0f bytes\">%s</td>",
-             result->bytes_allocated, result->bytes_allocated, bytes);
+             result->metric[FM_METRIC_BYTES_ALLOCATED], result->metric[FM_METRIC_BYTES_ALLOCATED],
+             bytes);
 }
 
 static bool has_message(const fm_group *group)
@@ -86,22 +90,31 @@ static void add_row(fm_text *page, const fm_group *group, size_t index, bool on_
     html_add(page, title);
     text_add(page, "</td>");
     html_add_number(page, 8, result->k);
-    html_add_number(page, 8, result->n);
+    html_add_number(page, 8, result->metric[FM_METRIC_N]);
     text_add(page, "<td>%s</td>", result->status); /* one of the known words */
     add_time(page, result);
     add_memory(page, result);
-    html_add_number(page, 12, result->missing);
-    html_add_number(page, 12, result->extra);
-    html_add_number(page, 12, result->misordered);
-    html_add_number(page, 3, result->rmse);
-    html_add_number(page, 3, result->total_rmse);
-    html_add_number(page, 3, result->truncation_rmse);
+    html_add_number(page, 12, result->metric[FM_METRIC_MISSING]);
+    html_add_number(page, 12, result->metric[FM_METRIC_EXTRA]);
+    html_add_number(page, 12, result->metric[FM_METRIC_MISORDERED]);
+    html_add_number(page, 3, result->metric[FM_METRIC_RMSE]);
+    html_add_number(page, 3, result->metric[FM_METRIC_TOTAL_RMSE]);
+    html_add_number(page, 3, result->metric[FM_METRIC_TRUNCATION_RMSE]);
     if (has_message(group)) {
         text_add(page, "<td class=message>");
         html_add(page, result->message);
         text_add(page, "</td>");
     }
     text_add(page, "</tr>\n");
+}
+
+static void add_head(fm_text *page, size_t column)
+{
+    const fm_metric_info *metric = &fm_metrics[columns[column].metric];
+    const bool is_metric = columns[column].title == NULL;
+    text_add(page, "<th title=\"%s\">%s</th>",
+             is_metric ? metric->definition : columns[column].help,
+             is_metric ? metric->name : columns[column].title);
 }
 
 void case_table_add(fm_text *page, const fm_group *group)
@@ -114,7 +127,7 @@ void case_table_add(fm_text *page, const fm_group *group)
     speed_error_frontier(on, group);
     text_add(page, "<div class=table><table><thead><tr>");
     for (size_t i = 0; i < COLUMN_COUNT - (has_message(group) ? 0 : 1); i++)
-        text_add(page, "<th title=\"%s\">%s</th>", columns[i].help, columns[i].title);
+        add_head(page, i);
     text_add(page, "</tr></thead><tbody>\n");
     for (size_t i = 0; i < group->count; i++)
         add_row(page, group, i, on[i]);

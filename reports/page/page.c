@@ -136,17 +136,18 @@ static bool hides_races(const fm_case_row *result)
 
 static bool has_few_samples(const fm_case_row *result)
 {
-    return result->is_measured && !result->is_simulated && result->samples < FM_SAMPLES_WANTED;
+    return result->is_measured && !result->is_simulated &&
+           result->metric[FM_METRIC_SAMPLES] < FM_SAMPLES_WANTED;
 }
 
 static bool is_single_launch(const fm_case_row *result)
 {
-    return result->is_measured && result->launches < 2;
+    return result->is_measured && result->metric[FM_METRIC_LAUNCHES] < 2;
 }
 
 static bool is_unstable(const fm_case_row *result)
 {
-    return result->is_measured && result->distinct_images > 1;
+    return result->is_measured && result->metric[FM_METRIC_DISTINCT_IMAGES] > 1;
 }
 
 static void add_note(fm_text *page, const fm_result_files *results,

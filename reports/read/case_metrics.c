@@ -9,7 +9,7 @@
 
 /* What papers plot instead of times. */
 typedef struct derived {
-    const char *name;
+    fm_metric metric;
     double (*value)(double frame_ms, const fm_case_row *result);
 } derived;
 
@@ -22,7 +22,7 @@ static double fps(double frame_ms, const fm_case_row *result)
 static double mib(double frame_ms, const fm_case_row *result)
 {
     (void)frame_ms;
-    return result->bytes_allocated / 1048576.0;
+    return result->metric[FM_METRIC_BYTES_ALLOCATED] / 1048576.0;
 }
 
 static double fps_per_mib(double frame_ms, const fm_case_row *result)
@@ -32,9 +32,11 @@ static double fps_per_mib(double frame_ms, const fm_case_row *result)
 
 static const derived *derived_find(const char *name)
 {
-    static const derived all[] = { { "fps", fps }, { "mib", mib }, { "fps_per_mib", fps_per_mib } };
+    static const derived all[] = { { FM_METRIC_FPS, fps },
+                                   { FM_METRIC_MIB, mib },
+                                   { FM_METRIC_FPS_PER_MIB, fps_per_mib } };
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
-        if (strcmp(all[i].name, name) == 0)
+        if (strcmp(fm_metrics[all[i].metric].name, name) == 0)
             return &all[i];
     return NULL;
 }
@@ -73,12 +75,10 @@ static double sample_median(const fm_result_files *results, size_t case_index, c
 
 double case_metric(const fm_result_files *results, const fm_case_row *result, const char *name)
 {
-    if (strcmp(name, "total_rmse") == 0)
-        return result->total_rmse;
     double value;
     const derived *metric = derived_find(name);
     if (metric != NULL)
-        return metric->value(result->frame_ms, result);
+        return metric->value(result->metric[FM_METRIC_FRAME_MS], result);
     if (case_number(&value, result, name))
         return value;
     return sample_median(results, (size_t)(result - results->cases), name);
@@ -182,7 +182,7 @@ static fm_interval interval_of(const frame_sums *sums, double constant)
 fm_interval case_interval(size_t *sample_count, const fm_result_files *results,
                           const fm_case_row *result, const char *const *names, size_t name_count)
 {
-    static const char *const frame[] = { "frame_ms" };
+    const char *const frame[] = { fm_metrics[FM_METRIC_FRAME_MS].name };
     const derived *metric = name_count == 1 ? derived_find(names[0]) : NULL;
     if (metric != NULL)
         return derive(metric, result, case_interval(sample_count, results, result, frame, 1));
@@ -198,9 +198,11 @@ fm_interval case_interval(size_t *sample_count, const fm_result_files *results,
             interval = interval_of(&sums, constant);
         else if (found > 0)
             interval = (fm_interval){ constant, constant, constant };
-        if (name_count == 1 && sums.count == 0 && strcmp(names[0], "frame_ms") == 0)
-            interval =
-                (fm_interval){ result->frame_ms, result->frame_ms_low, result->frame_ms_high };
+        if (name_count == 1 && sums.count == 0 &&
+            strcmp(names[0], fm_metrics[FM_METRIC_FRAME_MS].name) == 0)
+            interval = (fm_interval){ result->metric[FM_METRIC_FRAME_MS],
+                                      result->metric[FM_METRIC_FRAME_MS_LOW],
+                                      result->metric[FM_METRIC_FRAME_MS_HIGH] };
     }
     close_sums(&sums);
     return interval;

@@ -5,72 +5,50 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define TEXT(name, field)                                                                          \
+/* Where the texts and keys of a row are kept; its metrics are an array. */
+static const size_t fact_at[FM_FACT_COUNT] = {
+    [FM_FACT_SCHEMA] = SIZE_MAX, /* not kept */
+    [FM_FACT_CASE_ID] = offsetof(fm_case_row, id),
+    [FM_FACT_STATUS] = offsetof(fm_case_row, status),
+    [FM_FACT_MESSAGE] = offsetof(fm_case_row, message),
+    [FM_FACT_METHOD] = offsetof(fm_case_row, method),
+    [FM_FACT_METHOD_VERSION] = offsetof(fm_case_row, method_version),
+    [FM_FACT_DEVICE] = offsetof(fm_case_row, device),
+    [FM_FACT_DEVICE_NAME] = offsetof(fm_case_row, device_name),
+    [FM_FACT_FEED] = offsetof(fm_case_row, feed),
+    [FM_FACT_SCENE] = offsetof(fm_case_row, scene),
+    [FM_FACT_OPTIONS] = offsetof(fm_case_row, options),
+};
+
+#define KEY(field, text)                                                                           \
     {                                                                                              \
-        name, offsetof(fm_case_row, field), true                                                   \
-    }
-#define NUMBER(field)                                                                              \
-    {                                                                                              \
-#field, offsetof(fm_case_row, field), false                                                \
+#field, offsetof(fm_case_row, field), text                                                 \
     }
 
 static const struct {
     const char *name;
-    size_t offset;
+    size_t at;
     bool is_text;
-} columns[] = {
-    TEXT("case_id", id),
-    TEXT("status", status),
-    TEXT("message", message),
-    TEXT("method", method),
-    TEXT("feed", feed),
-    TEXT("method_version", method_version),
-    TEXT("device", device),
-    TEXT("device_name", device_name),
-    TEXT("scene", scene),
-    TEXT("order", order),
-    TEXT("seed", seed),
-    TEXT("options", options),
-    NUMBER(width_px),
-    NUMBER(height_px),
-    NUMBER(n),
-    NUMBER(k),
-    NUMBER(r),
-    NUMBER(pixel_density),
-    NUMBER(tessellation),
-    NUMBER(fragment_probability),
-    NUMBER(launches),
-    NUMBER(samples),
-    NUMBER(frame_ms),
-    NUMBER(frame_ms_low),
-    NUMBER(clear_ms),
-    NUMBER(frame_ms_high),
-    NUMBER(count_ms),
-    NUMBER(reference_ms),
-    NUMBER(store_ms),
-    NUMBER(resolve_ms),
-    NUMBER(times_floor),
-    NUMBER(bytes_allocated),
-    NUMBER(bytes_used),
-    NUMBER(bytes_predicted),
-    NUMBER(fragments_lost),
-    NUMBER(fragments_generated),
-    NUMBER(fragments_stored),
-    NUMBER(missing),
-    NUMBER(extra),
-    NUMBER(misordered),
-    NUMBER(depth_ulp_max),
-    NUMBER(rmse),
-    NUMBER(psnr_db),
-    NUMBER(max_abs),
-    NUMBER(ssim),
-    NUMBER(flip),
-    NUMBER(truncation_rmse),
-    NUMBER(distinct_images),
-    NUMBER(frame_wall_ms),
-    NUMBER(fragments_per_s),
+} keys[] = {
+    KEY(width_px, false),
+    KEY(height_px, false),
+    KEY(k, false),
+    KEY(r, false),
+    KEY(pixel_density, false),
+    KEY(fragment_probability, false),
+    KEY(tessellation, false),
+    KEY(order, true),
+    KEY(seed, true),
 };
-enum { COLUMN_COUNT = sizeof columns / sizeof columns[0] };
+enum { KEY_COUNT = sizeof keys / sizeof keys[0] };
+
+static size_t key_index(const char *name)
+{
+    size_t i = 0;
+    while (i < KEY_COUNT && strcmp(keys[i].name, name) != 0)
+        i++;
+    return i;
+}
 
 static fm_status check(fm_case_row *result, const fm_table *table, size_t row, fm_error *err)
 {
@@ -98,40 +76,67 @@ static void add_look(fm_case_row *result, const fm_provenance *manifest)
             .id = result->method, .title = result->method, .citation = "", .version = ""
         };
     result->is_ok = result->outcome == FM_CASE_OK;
-    const bool is_timed = isfinite(result->frame_ms) && result->frame_ms > 0.0;
+    const bool is_timed =
+        isfinite(result->metric[FM_METRIC_FRAME_MS]) && result->metric[FM_METRIC_FRAME_MS] > 0.0;
     result->is_simulated = strcmp(result->feed, "frames") == 0;
     result->is_measured = (result->is_ok || result->outcome == FM_CASE_WRONG_IMAGE) &&
                           (is_timed || result->is_simulated);
     /* manifest.json lists devices at the end of a run: until then nothing is claimed of a GPU. */
     result->is_software = device == NULL || device->is_software;
-    result->total_rmse = result->rmse;
+    result->metric[FM_METRIC_TOTAL_RMSE] = result->metric[FM_METRIC_RMSE];
     if (result->k == 0.0)
         result->k = NAN; /* what methods that keep no k nearest are given */
 }
 
-/* The cells of one row; index: where each of `columns` is in the table. */
+static fm_status read_text(fm_case_row *result, size_t at, const char *text)
+{
+    if (at != SIZE_MAX)
+        *(const char **)(void *)((char *)result + at) = text;
+    return FM_OK;
+}
+
+/* One cell, by what its column is. */
+static fm_status read_cell(fm_case_row *result, const fm_column *column, const fm_table *table,
+                           size_t row, size_t index, fm_error *err)
+{
+    const char *text = table_cell(table, row, index);
+    size_t key;
+    switch (column->kind) {
+    case FM_COLUMN_FACT:
+        return read_text(result, fact_at[column->fact], text);
+    case FM_COLUMN_METRIC:
+        return table_number(&result->metric[column->metric], table, row, index, err);
+    case FM_COLUMN_KEY:
+        break;
+    }
+    key = key_index(column->key);
+    if (key == KEY_COUNT)
+        return FM_OK;
+    return keys[key].is_text ? read_text(result, keys[key].at, text)
+                             : table_number((double *)(void *)((char *)result + keys[key].at),
+                                            table, row, index, err);
+}
+
+/* index: where each of fm_columns is in the table. */
 static fm_status read_cells(fm_case_row *result, const fm_table *table, size_t row,
-                            const size_t index[COLUMN_COUNT], fm_error *err)
+                            const size_t index[FM_COLUMN_COUNT], fm_error *err)
 {
     fm_status status = FM_OK;
-    for (size_t i = 0; i < COLUMN_COUNT && status == FM_OK; i++) {
-        void *field = (char *)result + columns[i].offset;
-        if (columns[i].is_text)
-            *(const char **)field = table_cell(table, row, index[i]);
-        else
-            status = table_number(field, table, row, index[i], err);
-    }
+    for (size_t i = 0; i < FM_METRIC_COUNT; i++)
+        result->metric[i] = NAN;
+    for (size_t i = 0; i < FM_COLUMN_COUNT && status == FM_OK; i++)
+        status = read_cell(result, &fm_columns[i], table, row, index[i], err);
     return status;
 }
 
 fm_status cases_read(fm_case_row **cases, const fm_table *table, const fm_provenance *manifest,
                      fm_error *err)
 {
-    size_t index[COLUMN_COUNT];
+    size_t index[FM_COLUMN_COUNT];
     fm_status status = FM_OK;
     *cases = NULL;
-    for (size_t i = 0; i < COLUMN_COUNT && status == FM_OK; i++)
-        status = table_need_column(&index[i], table, columns[i].name, err);
+    for (size_t i = 0; i < FM_COLUMN_COUNT && status == FM_OK; i++)
+        status = table_need_column(&index[i], table, column_name(&fm_columns[i]), err);
     if (status != FM_OK)
         return status;
     fm_case_row *made = calloc(table->row_count + 1, sizeof *made);
@@ -164,11 +169,13 @@ uint32_t cases_find(const fm_case_row *cases, size_t count, const char *id, uint
 
 bool case_number(double *value, const fm_case_row *result, const char *name)
 {
-    for (size_t i = 0; i < COLUMN_COUNT; i++) {
-        if (columns[i].is_text || strcmp(columns[i].name, name) != 0)
-            continue;
-        *value = *(const double *)(const void *)((const char *)result + columns[i].offset);
-        return true;
-    }
-    return false;
+    const size_t key = key_index(name);
+    fm_metric metric;
+    if (metric_find(&metric, name) && (summary_has_column(name) || metric == FM_METRIC_TOTAL_RMSE))
+        *value = result->metric[metric];
+    else if (key < KEY_COUNT && !keys[key].is_text)
+        memcpy(value, (const char *)result + keys[key].at, sizeof *value);
+    else
+        return false;
+    return true;
 }

@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "base/error.h"
+#include "model/columns.h"
 #include "model/outcome.h"
 #include "provenance.h"
 #include "table.h"
@@ -18,16 +19,10 @@ typedef struct fm_case_row {
     const char *status, *message, *method, *method_version, *device, *device_name, *feed;
     const char *scene, *order, *seed, *options; /* options: read by options.h */
     /* the workload; k is NAN for methods that keep no k nearest */
-    double width_px, height_px, n, k, r, pixel_density, fragment_probability, tessellation;
-    /* times, in milliseconds */
-    double launches, samples, frame_ms, frame_ms_low, frame_ms_high;
-    double clear_ms, count_ms, reference_ms, store_ms, resolve_ms, times_floor;
-    /* memory, fragments, errors */
-    double bytes_allocated, bytes_predicted, bytes_used;
-    double fragments_generated, fragments_stored, fragments_lost, missing, extra, misordered;
-    double depth_ulp_max, rmse, psnr_db, max_abs, ssim, flip, truncation_rmse, distinct_images;
-    double frame_wall_ms, fragments_per_s;
-    double total_rmse; /* from samples.csv; rmse where the run has none */
+    double width_px, height_px, k, r, pixel_density, fragment_probability, tessellation;
+    /* By fm_metric; NAN for those that summary.csv has no column for, but total_rmse, which is from
+     * samples.csv, or rmse where the run has none. */
+    double metric[FM_METRIC_COUNT];
 
     /* what follows from the row and from manifest.json */
     fm_case_status outcome; /* of the word `status` */

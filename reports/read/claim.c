@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "model/metrics.h"
 
 #define WORDS(list) (list), sizeof(list) / sizeof((list)[0])
 
@@ -89,7 +90,7 @@ static fm_status read_metrics(fm_claim_selection *selection, const fm_claim_sele
     if (status != FM_OK || selection->metrics.count > 0)
         return status;
     if (from != NULL ? text_list_add_all(&selection->metrics, &from->metrics)
-                     : text_list_add(&selection->metrics, "frame_ms"))
+                     : text_list_add(&selection->metrics, fm_metrics[FM_METRIC_FRAME_MS].name))
         return FM_OK;
     return fm_fail(at->err, FM_NO_MEMORY, "%s:%u: metric", at->path, map->line);
 }

@@ -75,7 +75,7 @@ bool group_is_stand_in(const char *scene)
 static const fm_case_row *best_known(const fm_group *group)
 {
     for (size_t i = 0; i < group->count; i++)
-        if (group->cases[i]->device_name[0] != '\0' && !isnan(group->cases[i]->n))
+        if (group->cases[i]->device_name[0] != '\0' && !isnan(group->cases[i]->metric[FM_METRIC_N]))
             return group->cases[i];
     return group->cases[0];
 }
@@ -90,7 +90,7 @@ static void describe(fm_group *group, const fm_text_list *free_columns)
         const char *column, *title;
         double value;
     } numbers[] = {
-        { "n", "n =", one->n },
+        { "n", "n =", one->metric[FM_METRIC_N] },
         { "r", "r =", one->r },
         { "pixel_density", "pixel density", one->pixel_density },
         { "fragment_probability", "survival", one->fragment_probability },

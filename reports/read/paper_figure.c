@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "model/metrics.h"
 
 static const char *const chart_keys[] = { "id",      "kind",   "title",    "x",
                                           "y",       "parts",  "ratio_to", "with_paper",
@@ -169,7 +170,7 @@ static fm_status read_paper_points(fm_paper_figure *figure, const fm_yaml *map,
     if (status == FM_OK)
         status = field_text(&figure->points_metric, map, "metric", false, at);
     if (status == FM_OK && figure->points_metric[0] == '\0')
-        figure->points_metric = "frame_ms";
+        figure->points_metric = fm_metrics[FM_METRIC_FRAME_MS].name;
     const fm_yaml *series = yaml_tree_find(map, "series");
     if (status == FM_OK && (series == NULL || series->kind != FM_YAML_LIST))
         status =

@@ -42,6 +42,12 @@ static int compare_frames(const void *left, const void *right)
     return (a->frame > b->frame) - (a->frame < b->frame);
 }
 
+static bool is_named(const fm_sample_rows *samples, size_t row, fm_metric metric)
+{
+    const char *name = table_cell(samples->table, row, samples->metric_column);
+    return strcmp(name, fm_metrics[metric].name) == 0;
+}
+
 /* Samples of frames that are marked off_clock count for nothing, as in summary.csv. */
 static fm_status leave_out_off_clock(fm_sample_rows *samples, fm_error *err)
 {
@@ -51,7 +57,7 @@ static fm_status leave_out_off_clock(fm_sample_rows *samples, fm_error *err)
     if (slow == NULL)
         return fm_fail(err, FM_NO_MEMORY, "%s: %zu rows", table->path, table->row_count);
     for (size_t row = 0; row < table->row_count; row++)
-        if (strcmp(table_cell(table, row, samples->metric_column), "off_clock") == 0)
+        if (is_named(samples, row, FM_METRIC_OFF_CLOCK))
             slow[count++] = (frame_name){ samples->frame[row], samples->case_index[row] };
     qsort(slow, count, sizeof *slow, compare_frames);
     for (size_t row = 0; row < table->row_count && count > 0; row++) {
@@ -122,8 +128,8 @@ static fm_status read_rows(fm_sample_rows *samples, fm_case_row *cases, size_t c
             continue;
         last = found;
         if (table_cell(table, row, columns->launch)[0] == '\0' &&
-            strcmp(table_cell(table, row, samples->metric_column), "total_rmse") == 0)
-            cases[found].total_rmse = samples->value[row];
+            is_named(samples, row, FM_METRIC_TOTAL_RMSE))
+            cases[found].metric[FM_METRIC_TOTAL_RMSE] = samples->value[row];
     }
     return FM_OK;
 }

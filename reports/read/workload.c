@@ -20,7 +20,7 @@ static const struct {
     { "seed", offsetof(fm_case_row, seed), true, false },
     { "width_px", offsetof(fm_case_row, width_px), false, false },
     { "height_px", offsetof(fm_case_row, height_px), false, false },
-    { "n", offsetof(fm_case_row, n), false, true },
+    { "n", offsetof(fm_case_row, metric[FM_METRIC_N]), false, true },
     { "k", offsetof(fm_case_row, k), false, true },
     { "r", offsetof(fm_case_row, r), false, false },
     { "pixel_density", offsetof(fm_case_row, pixel_density), false, false },

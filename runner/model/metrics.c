@@ -12,7 +12,7 @@
 
 /* clang-format off */
 const fm_metric_info fm_metrics[FM_METRIC_COUNT] = {
-    [FM_METRIC_FRAME_MS] = { "frame_ms", "frame", "ms",
+    [FM_METRIC_FRAME_MS] = { "frame_ms", "frame time", "ms",
         "GPU time of all passes of a frame, each between two timestamps (timers=frame: one interval)",
         FRAME, LESS, MEASURED },
     [FM_METRIC_FRAME_WALL_MS] = { "frame_wall_ms", "frame, host", "ms",
@@ -113,9 +113,9 @@ const fm_metric_info fm_metrics[FM_METRIC_COUNT] = {
     [FM_METRIC_LAUNCHES] = { "launches", "launches", "", "processes that measured the case", SUMMARY },
     [FM_METRIC_SAMPLES] = { "samples", "samples", "", "timed frames that count, of all launches",
         SUMMARY, MEASURED },
-    [FM_METRIC_FPS] = { "fps", "frames/s", "1/s", "1000 over frame_ms", REPORT, MORE, MEASURED },
+    [FM_METRIC_FPS] = { "fps", "frames per second", "1/s", "1000 over frame_ms", REPORT, MORE, MEASURED },
     [FM_METRIC_MIB] = { "mib", "memory", "MiB", "bytes_allocated over 2^20", REPORT, LESS },
-    [FM_METRIC_FPS_PER_MIB] = { "fps_per_mib", "frames/s for each MiB", "1/(s MiB)", "fps over mib",
+    [FM_METRIC_FPS_PER_MIB] = { "fps_per_mib", "frames per second and MiB", "1/(s MiB)", "fps over mib",
         REPORT, MORE, MEASURED },
     [FM_METRIC_CYCLES] = { "cycles", "cycles", "",
         "modelled cycles of all frames but the first", CASE, LESS },
@@ -179,4 +179,11 @@ const fm_metric_info *metric_describe(const char *name)
         if (is_of_family(&fm_metric_families[i], name))
             return &fm_metric_families[i].info;
     return NULL;
+}
+
+bool metric_is_time(const char *name)
+{
+    const fm_metric_info *info = metric_describe(name);
+    return info != NULL && info->is_measured &&
+           (strcmp(info->unit, "ms") == 0 || info->of == FM_OF_REPORT);
 }

@@ -121,6 +121,8 @@ extern const fm_metric_family fm_metric_families[FM_METRIC_FAMILY_COUNT];
 
 /* false: no metric has this name; *metric is then untouched. */
 bool metric_find(fm_metric *metric, const char *name);
+/* Whether the name is a time in milliseconds, or a rate that follows from one. */
+bool metric_is_time(const char *name);
 /* The row of a metric, or of the family that the name belongs to; NULL: neither. */
 const fm_metric_info *metric_describe(const char *name);
 

@@ -212,8 +212,8 @@ static void results_take_total_rmse_from_samples(void **state)
                "schema,run_id,case_id,launch,frame,metric,value,unit\n1,r,a8,,,total_rmse,0.5,\n"
                "1,r,a8,0,0,pass.peel_ms,3,ms\n1,r,a8,0,1,pass.peel_ms,5,ms\n1,r,zz,0,0,x,1,\n");
     assert_int_equal(result_files_read(&results, directory, NULL), FM_OK);
-    assert_true(results->cases[1].total_rmse == 0.5);
-    assert_true(results->cases[0].total_rmse == 0.2);
+    assert_true(results->cases[1].metric[FM_METRIC_TOTAL_RMSE] == 0.5);
+    assert_true(results->cases[0].metric[FM_METRIC_TOTAL_RMSE] == 0.2);
     assert_true(case_metric(results, &results->cases[1], "pass.peel_ms") == 4.0);
     assert_true(isnan(case_metric(results, &results->cases[0], "pass.peel_ms")));
     result_files_close(results);
