@@ -7,8 +7,8 @@
 
 #include "figure_labels.h"
 #include "figure_paper.h"
+#include "model/family.h"
 #include "read/case_metrics.h"
-#include "read/family.h"
 
 typedef struct bar_place {
     double slot;                  /* of the next bar, in slots from the left */

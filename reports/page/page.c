@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "html.h"
+#include "model/family.h"
 #include "read/case_metrics.h"
-#include "read/family.h"
 #include "read/group.h"
 
 static const char page_css[] = {

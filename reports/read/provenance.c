@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "family.h"
+#include "model/family.h"
 
 enum { MANIFEST_BYTES = 16 << 20 };
 

@@ -7,33 +7,7 @@
 
 #include "git_commit.h"
 #include "machine.h"
-
-static const char *const family_name[] = {
-    [FM_FAMILY_CONTROL] = "control",
-    [FM_FAMILY_Z_BUFFER] = "z-buffer",
-    [FM_FAMILY_PEELING] = "peeling",
-    [FM_FAMILY_K_BUFFER] = "k-buffer",
-    [FM_FAMILY_K_PLUS_BUFFER] = "k-plus-buffer",
-    [FM_FAMILY_A_BUFFER] = "a-buffer",
-    [FM_FAMILY_LINKED_LIST] = "linked-list",
-    [FM_FAMILY_RASTERISER] = "rasteriser",
-};
-_Static_assert(sizeof family_name / sizeof family_name[0] == FM_FAMILY_COUNT, "one name each");
-
-static const char *const marker_name[] = {
-    [FM_MARKER_CIRCLE] = "circle", [FM_MARKER_SQUARE] = "square", [FM_MARKER_DIAMOND] = "diamond",
-    [FM_MARKER_PLUS] = "plus",     [FM_MARKER_CROSS] = "cross",
-};
-_Static_assert(sizeof marker_name / sizeof marker_name[0] == FM_MARKER_COUNT, "one name each");
-
-/* In the order of FM_TRAIT_*'s bits. */
-static const char *const trait_name[] = {
-    "exact",           "bounded",    "sorted_input", "sorts_in_resolve",
-    "loses_depth_one", "loses_ties", "racy",         "approximate",
-    "control",         "floor",      "emits_back",   "reads_colour",
-};
-_Static_assert((1u << sizeof trait_name / sizeof trait_name[0]) == FM_TRAITS_ALL + 1u,
-               "one name a trait");
+#include "model/family.h"
 
 static json_t *machine_json(const fm_results *results)
 {
@@ -81,13 +55,13 @@ static json_t *devices_json(const fm_results *results)
 json_t *method_json(const fm_method_desc *method)
 {
     json_t *traits = json_array();
-    for (unsigned bit = 0; bit < sizeof trait_name / sizeof trait_name[0]; bit++)
+    for (unsigned bit = 0; trait_name(bit) != NULL; bit++)
         if ((method->traits & 1u << bit) != 0)
-            json_array_append_new(traits, json_string(trait_name[bit]));
+            json_array_append_new(traits, json_string(trait_name(bit)));
     return json_pack("{s:s, s:s?, s:s?, s:s, s:s, s:b, s:o}", "title",
                      method->title != NULL ? method->title : method->id, "citation",
                      method->citation, "version", method->version, "family",
-                     family_name[method->family], "marker", marker_name[method->marker], "dashed",
+                     family_name(method->family), "marker", marker_name(method->marker), "dashed",
                      (int)method->dashed, "traits", traits);
 }
 

@@ -5,14 +5,14 @@
  *   context.c      the OpenGL context, created and made current
  *   caps.c         what fm_device_caps says, and limits of its own
  *   gl.c           entry points and errors of OpenGL
- *   format.c       formats of images
  *   buffer.c       buffers, their reads and writes
+ *   format.c       formats of images
  *   image.c        images
  *   shader.c       GLSL to a program
  *   pipeline.c     pipelines; state.c: fixed-function state from the interface's enums
  *   framebuffer.c  what draws attach, and clears
  *   frame.c        begin and end, timers and queries
- *   command.c      fill, update, clear, dispatch; draw.c: draws; bind.c: what their shaders see
+ *   command.c      fill, update, clear, dispatch, draw; bind.c: what their shaders see
  *
  * There is no barrier.c: before every command everything waits for everything, since OpenGL orders
  * all but shader stores by itself and llvmpipe's threads share one memory. */
@@ -172,7 +172,6 @@ void osmesa_image_clear(fm_device *device, fm_image_resource *image, const float
                         float depth, uint32_t stencil);
 fm_status osmesa_dispatch(fm_device *device, const fm_dispatch *dispatch, fm_error *err);
 
-/* draw.c */
 fm_status osmesa_draw(fm_device *device, const fm_draw *draw, fm_error *err);
 
 #endif

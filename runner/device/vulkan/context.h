@@ -6,16 +6,14 @@
  *   logical_device.c  the device, with those features that shaders here may use
  *   caps.c            what fm_device_caps says
  *   result.c          a VkResult as an error
- *   format.c          formats of images
- *   memory.c          memory for buffers and images, of the type that fits
- *   buffer.c          buffers
+ *   buffer.c          buffers, and memory for them and images, of the type that fits
  *   transfer.c        their reads and writes; commands outside frames, and submitting any
- *   image.c           images
+ *   image.c           images and their formats
  *   shader.c          GLSL to SPIR-V
  *   pipeline.c        pipelines; state.c: fixed-function state from the interface's enums
  *   barrier.c         which accesses have to wait for which
  *   frame.c           begin and end, timers and queries
- *   command.c         fill, update, clear, dispatch; draw.c: draws; bind.c: what their shaders see
+ *   command.c         fill, update, clear, dispatch, draw; bind.c: what their shaders see
  *
  * Images stay in VK_IMAGE_LAYOUT_GENERAL all their life: barriers are then memory barriers only. */
 #ifndef FM_VULKAN_CONTEXT_H
@@ -153,7 +151,7 @@ void vulkan_caps_find(vulkan *self);
  * that nothing here can do without. */
 fm_status vulkan_logical_device_create(vulkan *self, fm_error *err);
 
-/* format.c. What Vulkan calls a format, and which aspects its images have. */
+/* image.c. What Vulkan calls a format, and which aspects its images have. */
 typedef struct vulkan_format {
     VkFormat format; /* VK_FORMAT_UNDEFINED for FM_FORMAT_NONE */
     bool has_depth, has_stencil;
@@ -169,7 +167,7 @@ uint32_t vulkan_format_samples(VkPhysicalDevice physical, fm_format first, fm_fo
 /* A clear value: integer formats take the bits of each float. */
 VkClearColorValue vulkan_clear_colour(const float colour[4]);
 
-/* memory.c. */
+/* buffer.c. */
 typedef enum vulkan_memory_kind {
     VULKAN_MEMORY_DEVICE,   /* near the GPU */
     VULKAN_MEMORY_COUNTERS, /* near the GPU, and read by the host if it can be */
@@ -270,7 +268,6 @@ void vulkan_image_clear(fm_device *device, fm_image_resource *image, const float
                         float depth, uint32_t stencil);
 fm_status vulkan_dispatch(fm_device *device, const fm_dispatch *dispatch, fm_error *err);
 
-/* draw.c */
 fm_status vulkan_draw(fm_device *device, const fm_draw *draw, fm_error *err);
 
 #endif

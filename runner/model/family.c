@@ -22,6 +22,25 @@ static const char *const marker_names[] = {
 _Static_assert(sizeof marker_names / sizeof marker_names[0] == FM_MARKER_COUNT,
                "one name a marker");
 
+/* In the order of FM_TRAIT_*'s bits. */
+static const char *const trait_names[] = {
+    "exact",           "bounded",    "sorted_input", "sorts_in_resolve",
+    "loses_depth_one", "loses_ties", "racy",         "approximate",
+    "control",         "floor",      "emits_back",   "reads_colour",
+};
+enum { TRAIT_COUNT = sizeof trait_names / sizeof trait_names[0] };
+_Static_assert((1u << TRAIT_COUNT) == FM_TRAITS_ALL + 1u, "one name a trait");
+
+const char *trait_name(unsigned bit)
+{
+    return bit < TRAIT_COUNT ? trait_names[bit] : NULL;
+}
+
+const char *marker_name(fm_marker marker)
+{
+    return marker_names[marker];
+}
+
 const char *family_name(fm_family family)
 {
     return family_names[family];
