@@ -36,6 +36,8 @@ fm_status fm_error_prefix(fm_error *err, const char *format, ...)
 {
     char prefix[512], below[sizeof err->message];
     va_list arguments;
+    if (err == NULL)
+        return FM_INVALID;
     va_start(arguments, format);
     vsnprintf(prefix, sizeof prefix, format, arguments);
     va_end(arguments);

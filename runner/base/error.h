@@ -1,4 +1,8 @@
-/* Errors: a status and one sentence that names file, line, pass or field. */
+/* Errors: a status and one sentence that names file, line, pass or field.
+ *
+ * The room base holds what any program needs: errors, texts, paths, CSV, YAML, statistics, random
+ * numbers, images and their errors, a clock. It knows nothing of fragmark: no key, method or scene
+ * may be named here. */
 #ifndef FM_ERROR_H
 #define FM_ERROR_H
 
@@ -13,7 +17,8 @@ typedef struct fm_error {
 fm_status fm_fail(fm_error *err, fm_status status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Puts a prefix before the message of an error that came from below; returns its status. */
+/* Puts "PREFIX: " before the message of an error that came from below; returns its status. err may
+ * be NULL: then nothing is known of the failure, and the answer is FM_INVALID. */
 fm_status fm_error_prefix(fm_error *err, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 

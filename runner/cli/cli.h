@@ -1,4 +1,7 @@
-/* What the subcommands share. They write data to `out` and talk to `talk`. */
+/* What the subcommands share. They write data to `out` and talk to `talk`.
+ *
+ * The room cli holds the subcommands, their options, their help and their exit codes, one file
+ * each. What they do is done below; nothing below prints or exits. */
 #ifndef FM_CLI_H
 #define FM_CLI_H
 

@@ -1,6 +1,9 @@
 /* A method on a device, set up for one scene, feed and set of options: its resources, its
  * pipelines, and the frames that it runs. The timed build composites; the checked build
- * (is_capture) counts events and writes the emitted fragments of a band of pixels down. */
+ * (is_capture) counts events and writes the emitted fragments of a band of pixels down.
+ *
+ * The room instance turns descriptors into resources, pipelines, barriers and frames. It reads no
+ * truth, judges nothing and knows no method by name. */
 #ifndef FM_INSTANCE_H
 #define FM_INSTANCE_H
 

@@ -1,4 +1,8 @@
-/* Every key that a spec, a scene file or -a can set: one table of names, types, ranges, defaults
+/* The room model is the vocabulary: what keys, feeds, formats, metrics, columns, families and
+ * statuses there are, and what follows from a descriptor by arithmetic. One table each. It opens no
+ * scene, no plugin and no device.
+ *
+ * Every key that a spec, a scene file or -a can set: one table of names, types, ranges, defaults
  * and help, and the struct that they fill. Scene files, spec files, `-a KEY=VALUE` and `--help`
  * read this table. A new key is a member of fm_settings and a row of fm_keys; whoever uses its
  * value is code elsewhere, and a key that makes scenes or changes methods needs some.

@@ -2,7 +2,10 @@
  * manifest.json, samples.csv, summary.csv and images/ in a directory; resumable at any moment.
  *
  * In DIRECTORY/work lie the request, result and output of launches that went wrong, in
- * DIRECTORY/truth what launches are compared with, until the run is done. */
+ * DIRECTORY/truth what launches are compared with, until the run is done.
+ *
+ * The room parent runs in the parent process only: it starts workers, never opens a device, and is
+ * the only one that writes a run's files. */
 #ifndef FM_RUN_H
 #define FM_RUN_H
 

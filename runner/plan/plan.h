@@ -1,4 +1,7 @@
-/* methods x scenes x devices x feeds x axes -> cases. */
+/* methods x scenes x devices x feeds x axes -> cases.
+ *
+ * The room plan reads what is asked for and says what that is, case by case, and why a case cannot
+ * run. It opens no device and measures nothing. */
 #ifndef FM_PLAN_H
 #define FM_PLAN_H
 

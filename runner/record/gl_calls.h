@@ -1,4 +1,8 @@
-/* The real OpenGL and GLX entry points that the recorder calls, looked up behind its own. */
+/* The real OpenGL and GLX entry points that the recorder calls, looked up behind its own.
+ *
+ * The folder record is a libGL of our own, which `fragmark record` puts before the real one: it
+ * writes what a program draws as a stream of frames. It is not linked into fragmark, and uses base
+ * and scene. */
 #ifndef FM_RECORD_GL_CALLS_H
 #define FM_RECORD_GL_CALLS_H
 

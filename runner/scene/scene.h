@@ -1,4 +1,9 @@
-/* A scene ready to be drawn: what a device needs and nothing else. */
+/* A scene ready to be drawn: what a device needs and nothing else.
+ *
+ * The room scene holds what scenes are and all that is known of one without a device: files,
+ * meshes, cameras, layers in closed form, hulls, the host's rasteriser, sequences of frames. What
+ * makes scenes from a seed is generators/'; nothing here knows a generator, a method or a device.
+ */
 #ifndef FM_SCENE_H
 #define FM_SCENE_H
 

@@ -1,5 +1,8 @@
 /* A scene on a device, ready for one feed: what all methods of a launch share. Only what the scene
- * and the feed use is allocated. */
+ * and the feed use is allocated.
+ *
+ * The room stage puts scenes on devices and GLSL together from parts (shader.h). It knows feeds and
+ * the runner's own buffers; it knows no method: what a method adds is the instance's. */
 #ifndef FM_STAGE_H
 #define FM_STAGE_H
 

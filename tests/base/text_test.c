@@ -310,9 +310,20 @@ static void yaml_tree_read_names_the_missing_file(void **state)
     assert_non_null(strstr(err.message, "/nowhere/a.yml"));
 }
 
+static void error_prefix_puts_a_colon_and_takes_no_error(void **state)
+{
+    (void)state;
+    fm_error err = { 0 };
+    fm_fail(&err, FM_IO, "no such file");
+    assert_int_equal(fm_error_prefix(&err, "scene %d", 7), FM_IO);
+    assert_string_equal(err.message, "scene 7: no such file");
+    assert_int_equal(fm_error_prefix(NULL, "scene %d", 7), FM_INVALID);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(error_prefix_puts_a_colon_and_takes_no_error),
         cmocka_unit_test(text_add_grows),
         cmocka_unit_test(text_add_failure_sticks),
         cmocka_unit_test(text_file_round_trip_keeps_nul_bytes),
