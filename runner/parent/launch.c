@@ -236,6 +236,21 @@ static json_t *result_of_death(const ending *end, const fm_launch_desc *desc, of
                        message);
 }
 
+/* Whether a worker that says it could not write its answer speaks the truth: a plugin may exit with
+ * any status. */
+static bool cannot_be_written(const char *path, fm_error *err)
+{
+    static const char probe[1 << 16] = "";
+    const fm_status status = text_write_file(path, probe, sizeof probe, err);
+    unlink(path);
+    return status != FM_OK;
+}
+
+static bool says_no_answer(const ending *end)
+{
+    return WIFEXITED(end->wait_status) && WEXITSTATUS(end->wait_status) == WORKER_EXIT_NO_ANSWER;
+}
+
 static json_t *read_result(const ending *end, const fm_launch_desc *desc, off_t log_from)
 {
     char *bytes = NULL, message[512];
@@ -243,6 +258,8 @@ static json_t *read_result(const ending *end, const fm_launch_desc *desc, off_t 
     fm_error below = { 0 };
     json_error_t fault = { 0 };
     json_t *result = NULL;
+    if (!end->is_timed_out && says_no_answer(end) && cannot_be_written(desc->result, &below))
+        return answer_make_runs_fault(below.message);
     if (end->is_timed_out || !WIFEXITED(end->wait_status) || access(desc->result, R_OK) != 0)
         return result_of_death(end, desc, log_from);
     if (text_read_file(&bytes, &count, desc->result, result_max_bytes, &below) != FM_OK)

@@ -104,6 +104,24 @@ static const char *plugin_path(const run_state *run, const fm_case *planned)
     return entry != NULL && entry->plugin != NULL ? entry->plugin->path : "";
 }
 
+/* What a truth job and the launches that are compared with it are asked alike. */
+static fm_request request_for(const run_state *run, const fm_case *planned, size_t job,
+                              const char *truth)
+{
+    return (fm_request){ .device = planned->device,
+                         .feed = planned->feed,
+                         .settings = &planned->settings,
+                         .choices = planned->choices,
+                         .choice_count = planned->choice_count,
+                         .plugin = plugin_path(run, planned),
+                         .floor = run->truths.jobs[job].floor,
+                         .common = run->plugins->common_folder,
+                         .truth = truth,
+                         .image = "",
+                         .validation = run->desc->validation,
+                         .no_timers = run->desc->no_timers };
+}
+
 fm_status run_capture_truth(run_state *run, size_t job, fm_error *err)
 {
     char path[FM_PATH_MAX_BYTES], name[sizeof run->truths.jobs[job].name + 8], current[160];
@@ -119,21 +137,8 @@ fm_status run_capture_truth(run_state *run, size_t job, fm_error *err)
         progress_skip(&run->progress);
         return FM_OK;
     }
-    const fm_request request = {
-        .device = planned->device,
-        .feed = planned->feed,
-        .settings = &planned->settings,
-        .choices = planned->choices,
-        .choice_count = planned->choice_count,
-        .plugin = plugin_path(run, planned),
-        .floor = run->truths.jobs[job].floor,
-        .common = run->plugins->common_folder,
-        .truth = path,
-        .image = "",
-        .is_truth_job = true,
-        .validation = run->desc->validation,
-        .no_timers = run->desc->no_timers,
-    };
+    fm_request request = request_for(run, planned, job, path);
+    request.is_truth_job = true;
     status = ask(&outcome, run, name, &request, err);
     if (status != FM_OK || outcome.is_interrupted)
         return status;
@@ -151,9 +156,9 @@ fm_status run_measure(run_state *run, size_t case_index, uint32_t launch, fm_err
     const fm_case *planned = &run->plan->cases[case_index];
     char truth[FM_PATH_MAX_BYTES], image[FM_PATH_MAX_BYTES] = "", k[FM_PATH_MAX_BYTES],
                                    current[160];
+    const size_t job = run->truths.of_case[case_index];
     fm_launch_outcome outcome;
-    fm_status status = run_path(
-        truth, run, "truth", run->truths.jobs[run->truths.of_case[case_index]].name, ".truth", err);
+    fm_status status = run_path(truth, run, "truth", run->truths.jobs[job].name, ".truth", err);
     if (status == FM_OK && launch == 0 && !run->desc->no_images && !planned->no_image)
         status = run_path(image, run, "images", planned->id, ".rgba32f", err);
     if (status == FM_OK)
@@ -166,25 +171,15 @@ fm_status run_measure(run_state *run, size_t case_index, uint32_t launch, fm_err
              has_k ? " k=" : "", has_k ? k : "", planned->scene, planned->device, planned->feed,
              launch);
     progress_begin(&run->progress, current);
-    const fm_request request = {
-        .device = planned->device,
-        .feed = planned->feed,
-        .settings = &planned->settings,
-        .choices = planned->choices,
-        .choice_count = planned->choice_count,
-        .plugin = plugin_path(run, planned),
-        .floor = run->truths.jobs[run->truths.of_case[case_index]].floor,
-        .common = run->plugins->common_folder,
-        .truth = truth,
-        .image = image,
-        .check = launch == 0,
-        .validation = run->desc->validation,
-        .no_timers = run->desc->no_timers,
-        .launch = launch,
-    };
+    fm_request request = request_for(run, planned, job, truth);
+    request.image = image;
+    request.check = launch == 0;
+    request.launch = launch;
     status = ask(&outcome, run, planned->id, &request, err);
-    if (status != FM_OK)
+    if (status != FM_OK) { /* it did not begin, and is not to be counted as if it had */
+        journal_write(run->journal, FM_JOURNAL_STOP, planned->id, launch, NULL, NULL);
         return status;
+    }
     const bool is_unfinished = outcome.is_interrupted || answer_is_runs_fault(outcome.result);
     if (is_unfinished)
         status = journal_write(run->journal, FM_JOURNAL_STOP, planned->id, launch, NULL, err);

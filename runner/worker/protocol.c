@@ -197,6 +197,14 @@ json_t *answer_make(fm_case_status status, const char *message)
     return answer;
 }
 
+json_t *answer_make_runs_fault(const char *message)
+{
+    json_t *answer = json_object();
+    if (answer != NULL)
+        answer_set_runs_fault(answer, message);
+    return answer;
+}
+
 static const char *sample_fault(const json_t *sample)
 {
     const json_t *frame = json_object_get(sample, "frame");

@@ -50,6 +50,9 @@ typedef struct fm_request {
     uint32_t launch;
 } fm_request;
 
+/* What a worker exits with when its answer could not be written. */
+enum { WORKER_EXIT_NO_ANSWER = 74 };
+
 /* Writes the request whole or not at all. FM_IO; FM_INVALID: no memory, or a path that is not
  * UTF-8.
  */
@@ -83,6 +86,8 @@ void answer_set_modelled(json_t *answer, json_t *scene, json_t *passes, json_t *
 void answer_add_sample_named(json_t *samples, uint32_t frame, const char *metric, double value);
 /* An answer on behalf of a worker that left none; NULL without memory. */
 json_t *answer_make(fm_case_status status, const char *message);
+/* The same where the run is to blame. */
+json_t *answer_make_runs_fault(const char *message);
 
 /* ---- reading ---- */
 

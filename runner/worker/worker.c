@@ -340,5 +340,5 @@ int worker_main(const char *request_path, const char *answer_path, const fm_devi
         answer_set_verdict(job.answer, word, job.error.message);
     const int written = json_dump_file(job.answer, answer_path, JSON_INDENT(1));
     release(&job);
-    return written == 0 ? 0 : 1;
+    return written == 0 ? 0 : WORKER_EXIT_NO_ANSWER;
 }

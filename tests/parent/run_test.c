@@ -35,7 +35,13 @@ static const char worker_script[] =
     "case $method in\n"
     "crash) echo 'last words' >&2; kill -SEGV $$ ;;\n"
     "garbage) echo 'not JSON' >\"$3\" ;;\n"
+    "full) [ -e \"$here/room\" ] && echo \"$good\" >\"$3\" && exit 0\n"
+    "    mkdir -p \"$3.partial\"; exit 74 ;;\n"
     "hang) sleep 60 ;;\n"
+    "liar) exit 74 ;;\n"
+    "lost) [ -e \"$here/room\" ] && echo \"$good\" >\"$3\" && exit 0\n"
+    "    echo '{\"status\":\"skipped\",\"is_runs_fault\":true,\"message\":\"disk full\"}' >\"$3\" "
+    ";;\n"
     "silent) exit 3 ;;\n"
     "status) echo '{\"status\":\"splendid\"}' >\"$3\" ;;\n"
     "stops) [ -e \"$here/stopped\" ] || { touch \"$here/stopped\"; kill -TERM $PPID; sleep 60; }\n"
@@ -166,6 +172,49 @@ static void run_records_every_way_a_worker_can_fail(void **state)
     assert_int_equal(count_in_file(&fake, "calls", "crash"), 1); /* not launched again */
     assert_int_equal(count_in_file(&fake, "calls", "hang"), 1);
     assert_int_equal(count_in_file(&fake, "calls", "good"), 2);
+    fake_close(&fake);
+}
+
+/* Stops with FM_IO and no verdict on the case; the same run finishes once there is room. */
+static void assert_runs_fault(const char *id, const char *words)
+{
+    const char *const ids[] = { id, NULL };
+    fake_plan fake;
+    fm_run_result result;
+    fm_error err = { 0 };
+    char path[160], row[32];
+    snprintf(row, sizeof row, ",%s,7,", id); /* method and version */
+    open_with_worker(&fake, ids, 1);
+    for (int times = 0; times < 3; times++) { /* never taken for a launch that kills its run */
+        assert_int_equal(run_in(&result, &fake, 5, &err), FM_IO);
+        assert_false(result.is_damaged);
+        assert_non_null(strstr(err.message, words));
+        assert_int_equal(count_in_file(&fake, "out/summary.csv", row), 0);
+    }
+    snprintf(path, sizeof path, "%s/out/work/%s.result.json.partial", fake.folder,
+             fake.plan.cases[0].id);
+    rmdir(path);
+    fake_write(&fake, "room", "", "w");
+    assert_int_equal(run_well(&fake).ok, 1);
+    assert_int_equal(count_in_file(&fake, "out/summary.csv", row), 1);
+    fake_close(&fake);
+}
+
+static void run_blames_nobody_for_what_the_run_cannot_write(void **state)
+{
+    (void)state;
+    assert_runs_fault("lost", "disk full");
+    assert_runs_fault("full", "partial");
+}
+
+static void run_does_not_believe_a_worker_that_could_have_answered(void **state)
+{
+    (void)state;
+    static const char *const ids[] = { "liar", NULL };
+    fake_plan fake;
+    open_with_worker(&fake, ids, 1);
+    assert_int_equal(run_well(&fake).failed, 1);
+    assert_in_file(&fake, "out/summary.csv", "crash,exited with status 74");
     fake_close(&fake);
 }
 
@@ -354,6 +403,8 @@ int main(void)
         cmocka_unit_test(run_writes_a_command_that_is_not_utf8),
         cmocka_unit_test(run_interleaves_the_cases),
         cmocka_unit_test(run_records_every_way_a_worker_can_fail),
+        cmocka_unit_test(run_blames_nobody_for_what_the_run_cannot_write),
+        cmocka_unit_test(run_does_not_believe_a_worker_that_could_have_answered),
         cmocka_unit_test(run_takes_missing_support_as_a_result),
         cmocka_unit_test(run_fails_the_cases_of_a_truth_that_failed),
         cmocka_unit_test(run_finds_an_exact_method_that_draws_differently),
