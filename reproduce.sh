@@ -17,7 +17,7 @@ reports again; to measure anew, remove DIR or give another.
   --help         this text
 
 Exit codes: 0 done; 2 something is missing and cannot be installed here (the command for an
-administrator is printed), or a wrong option; 1 the build failed; else that of fragmark (README.md).
+administrator is printed), or a wrong option; 1 the build failed; else that of fragmark (runner/README.md).
 USAGE
 }
 

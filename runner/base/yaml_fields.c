@@ -56,6 +56,28 @@ fm_status field_number(double *value, const fm_yaml *map, const char *key, const
     return FM_OK;
 }
 
+fm_status field_whole(uint64_t *value, const fm_yaml *map, const char *key, uint64_t most,
+                      const fm_yaml_place *at)
+{
+    const fm_yaml *found = yaml_tree_find(map, key);
+    if (found == NULL || found->kind != FM_YAML_SCALAR || !text_to_u64(value, found->text) ||
+        *value > most)
+        return fm_fail(at->err, FM_INVALID, "%s:%u: %s: a whole number up to %llu is expected",
+                       at->path, found != NULL ? found->line : map->line, key,
+                       (unsigned long long)most);
+    return FM_OK;
+}
+
+fm_status field_items(const fm_yaml **list, const fm_yaml *map, const char *key,
+                      const fm_yaml_place *at)
+{
+    *list = yaml_tree_find(map, key);
+    if (*list != NULL && (*list)->kind == FM_YAML_LIST)
+        return FM_OK;
+    return fm_fail(at->err, FM_INVALID, "%s:%u: %s: a list is expected", at->path,
+                   *list != NULL ? (*list)->line : map->line, key);
+}
+
 static fm_status add_text(fm_text_list *list, const fm_yaml *value, const char *key,
                           const fm_yaml_place *at)
 {

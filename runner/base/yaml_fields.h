@@ -3,6 +3,7 @@
 #define FM_YAML_FIELDS_H
 
 #include <stdbool.h>
+#include <stdint.h>
 
 #include "error.h"
 #include "text.h"
@@ -24,6 +25,12 @@ fm_status field_text(const char **text, const fm_yaml *map, const char *key, boo
                      const fm_yaml_place *at);
 /* A number; *value stays when the key is missing. */
 fm_status field_number(double *value, const fm_yaml *map, const char *key, const fm_yaml_place *at);
+/* A whole number from 0 to `most`, which must be there. */
+fm_status field_whole(uint64_t *value, const fm_yaml *map, const char *key, uint64_t most,
+                      const fm_yaml_place *at);
+/* A list of anything, which must be there; it points into the tree. */
+fm_status field_items(const fm_yaml **list, const fm_yaml *map, const char *key,
+                      const fm_yaml_place *at);
 /* Texts, or one text, added to the list; missing: none. FM_NO_MEMORY. The caller frees the list. */
 fm_status field_list(fm_text_list *list, const fm_yaml *map, const char *key,
                      const fm_yaml_place *at);

@@ -5,57 +5,21 @@
 #include <string.h>
 
 #include "base/csv.h"
-#include "base/yaml_tree.h"
+#include "base/yaml_fields.h"
+#include "model/figure_file.h"
 #include "model/formula.h"
 
 static const double mib = 1048576.0;
 
 /* What the functions below share. */
 typedef struct table_job {
-    const char *path, *figure;
+    fm_yaml_place at; /* the figure's file */
+    const char *figure;
     const fm_yaml *columns, *rows;
     double added_per_pixel;
     fm_text *csv;
     fm_memory_verdicts *verdicts;
-    fm_error *err;
 } table_job;
-
-static fm_status read_number(double *number, const fm_yaml *map, const char *key, bool needed,
-                             const table_job *job)
-{
-    const fm_yaml *value = yaml_tree_find(map, key);
-    *number = 0;
-    if (value == NULL && !needed)
-        return FM_OK;
-    if (value == NULL || value->kind != FM_YAML_SCALAR || !text_to_double(number, value->text))
-        return fm_fail(job->err, FM_INVALID, "%s:%u: '%s': a number is expected", job->path,
-                       value != NULL ? value->line : map->line, key);
-    return FM_OK;
-}
-
-static fm_status read_text(const char **text, const fm_yaml *map, const char *key, bool needed,
-                           const table_job *job)
-{
-    const fm_yaml *value = yaml_tree_find(map, key);
-    *text = "";
-    if (value == NULL && !needed)
-        return FM_OK;
-    if (value == NULL || value->kind != FM_YAML_SCALAR)
-        return fm_fail(job->err, FM_INVALID, "%s:%u: '%s': a text is expected", job->path,
-                       value != NULL ? value->line : map->line, key);
-    *text = value->text;
-    return FM_OK;
-}
-
-static fm_status read_list(const fm_yaml **list, const fm_yaml *map, const char *key,
-                           const table_job *job)
-{
-    *list = yaml_tree_find(map, key);
-    if (*list == NULL || (*list)->kind != FM_YAML_LIST)
-        return fm_fail(job->err, FM_INVALID, "%s:%u: '%s': a list is expected", job->path,
-                       *list != NULL ? (*list)->line : map->line, key);
-    return FM_OK;
-}
 
 static const char *default_option(const fm_workload *workload, const char *name)
 {
@@ -66,31 +30,19 @@ static const char *default_option(const fm_workload *workload, const char *name)
     return NULL;
 }
 
-static fm_status read_whole(uint64_t *number, const fm_yaml *map, const char *key, uint64_t most,
-                            const table_job *job)
-{
-    const fm_yaml *value = yaml_tree_find(map, key);
-    if (value == NULL || value->kind != FM_YAML_SCALAR || !text_to_u64(number, value->text) ||
-        *number > most)
-        return fm_fail(job->err, FM_INVALID, "%s:%u: '%s': a whole number up to %llu is expected",
-                       job->path, value != NULL ? value->line : map->line, key,
-                       (unsigned long long)most);
-    return FM_OK;
-}
-
 /* The workload of a column, but for its totals. */
 static fm_status read_workload(fm_workload *workload, const fm_yaml *column, const table_job *job)
 {
     uint64_t width = 0, height = 0, k = 0, n = 0;
-    fm_status status = read_whole(&width, column, "width_px", 65536, job);
+    fm_status status = field_whole(&width, column, "width_px", 65536, &job->at);
     if (status == FM_OK)
-        status = read_whole(&height, column, "height_px", 65536, job);
+        status = field_whole(&height, column, "height_px", 65536, &job->at);
     if (status == FM_OK)
-        status = read_whole(&k, column, "k", 4096, job);
+        status = field_whole(&k, column, "k", 4096, &job->at);
     if (status == FM_OK)
-        status = read_whole(&n, column, "n", 65536, job);
+        status = field_whole(&n, column, "n", 65536, &job->at);
     if (status == FM_OK)
-        status = read_whole(&workload->fragments, column, "fragments", UINT64_MAX / 2, job);
+        status = field_whole(&workload->fragments, column, "fragments", UINT64_MAX / 2, &job->at);
     workload->width_px = (uint32_t)width;
     workload->height_px = (uint32_t)height;
     workload->k = (uint32_t)k;
@@ -109,7 +61,7 @@ static fm_status read_totals(uint64_t totals[FM_MAX_TOTALS], const fm_yaml *colu
         const char *name = method->totals[i].name;
         totals[i] = workload->fragments;
         if (name != NULL && named != NULL && yaml_tree_find(named, name) != NULL)
-            status = read_whole(&totals[i], named, name, UINT64_MAX / 2, job);
+            status = field_whole(&totals[i], named, name, UINT64_MAX / 2, &job->at);
     }
     return status;
 }
@@ -165,7 +117,7 @@ static fm_status add_cell(const table_job *job, const table_row *row, size_t ind
     double value = NAN;
     const fm_yaml *column = &job->columns->items[index];
     const fm_yaml *printed = &row->printed->items[index];
-    fm_status status = read_text(&title, column, "title", true, job);
+    fm_status status = field_text(&title, column, "title", true, &job->at);
     if (status == FM_OK)
         status = read_workload(&workload, column, job);
     if (status == FM_OK)
@@ -174,8 +126,8 @@ static fm_status add_cell(const table_job *job, const table_row *row, size_t ind
         return status;
     if (printed->kind != FM_YAML_SCALAR ||
         (printed->text[0] != '\0' && !text_to_double(&value, printed->text)))
-        return fm_fail(job->err, FM_INVALID, "%s:%u: 'printed': numbers are expected", job->path,
-                       printed->line);
+        return fm_fail(job->at.err, FM_INVALID, "%s:%u: 'printed': numbers are expected",
+                       job->at.path, printed->line);
     const double pixels = (double)workload.width_px * workload.height_px;
     const double added =
         job->added_per_pixel + row->added_per_pixel + row->added_per_pixel_k * (double)workload.k;
@@ -201,24 +153,24 @@ static fm_status add_row(const table_job *job, const fm_yaml *from, const fm_plu
     const char *id;
     const fm_plugin_entry *entry = NULL;
     table_row row = { .errata = yaml_tree_find(from, "errata") };
-    fm_status status = read_text(&id, from, "method", true, job);
+    fm_status status = field_text(&id, from, "method", true, &job->at);
     if (status == FM_OK)
-        status = plugin_list_get(&entry, plugins, id, job->err);
+        status = plugin_list_get(&entry, plugins, id, job->at.err);
     if (status == FM_OK && entry->plugin == NULL)
-        status = fm_fail(job->err, entry->error.status, "%s", entry->error.message);
+        status = fm_fail(job->at.err, entry->error.status, "%s", entry->error.message);
     if (status == FM_OK)
-        status = read_text(&row.title, from, "title", true, job);
+        status = field_text(&row.title, from, "title", true, &job->at);
     if (status == FM_OK)
-        status = read_text(&row.why, from, "why", false, job);
+        status = field_text(&row.why, from, "why", false, &job->at);
     if (status == FM_OK)
-        status = read_number(&row.added_per_pixel, from, "added_per_pixel", false, job);
+        status = field_number(&row.added_per_pixel, from, "added_per_pixel", &job->at);
     if (status == FM_OK)
-        status = read_number(&row.added_per_pixel_k, from, "added_per_pixel_k", false, job);
+        status = field_number(&row.added_per_pixel_k, from, "added_per_pixel_k", &job->at);
     if (status == FM_OK)
-        status = read_list(&row.printed, from, "printed", job);
+        status = field_items(&row.printed, from, "printed", &job->at);
     if (status == FM_OK && row.printed->count != job->columns->count)
-        status = fm_fail(job->err, FM_INVALID, "%s:%u: 'printed': one value for each column",
-                         job->path, row.printed->line);
+        status = fm_fail(job->at.err, FM_INVALID, "%s:%u: 'printed': one value for each column",
+                         job->at.path, row.printed->line);
     if (status != FM_OK)
         return status;
     row.method = entry->plugin->method;
@@ -229,32 +181,30 @@ static fm_status add_row(const table_job *job, const fm_yaml *from, const fm_plu
 
 fm_status memory_table_is_in(bool *has, const char *path, fm_error *err)
 {
-    fm_yaml *root = NULL;
-    *has = false;
-    const fm_status status = yaml_tree_read(&root, path, err);
-    if (status == FM_OK)
-        *has = yaml_tree_find(root, "table") != NULL;
-    yaml_tree_free(root);
+    fm_figure_file file;
+    const fm_status status = figure_file_read(&file, path, err);
+    *has = status == FM_OK && file.table != NULL;
+    figure_file_close(&file);
     return status;
 }
 
 fm_status memory_table_make(fm_text *csv, fm_memory_verdicts *verdicts, const char *path,
                             const char *figure, const fm_plugin_list *plugins, fm_error *err)
 {
-    fm_yaml *root = NULL;
+    fm_figure_file file;
     table_job job = {
-        .path = path, .figure = figure, .csv = csv, .verdicts = verdicts, .err = err
+        .at = { .path = path, .err = err }, .figure = figure, .csv = csv, .verdicts = verdicts
     };
-    fm_status status = yaml_tree_read(&root, path, err);
-    const fm_yaml *table = status == FM_OK ? yaml_tree_find(root, "table") : NULL;
+    fm_status status = figure_file_read(&file, path, err);
+    const fm_yaml *table = file.table;
     if (status == FM_OK && (table == NULL || table->kind != FM_YAML_MAP))
         status = fm_fail(err, FM_INVALID, "%s: 'table': a mapping is expected", path);
     if (status == FM_OK)
-        status = read_number(&job.added_per_pixel, table, "added_per_pixel", false, &job);
+        status = field_number(&job.added_per_pixel, table, "added_per_pixel", &job.at);
     if (status == FM_OK)
-        status = read_list(&job.columns, table, "columns", &job);
+        status = field_items(&job.columns, table, "columns", &job.at);
     if (status == FM_OK)
-        status = read_list(&job.rows, table, "rows", &job);
+        status = field_items(&job.rows, table, "rows", &job.at);
     if (status == FM_OK && csv->length == 0)
         text_add(csv,
                  "figure,workload,method,title,bytes,mib,printed,difference_mib,verdict,why\n");
@@ -262,6 +212,6 @@ fm_status memory_table_make(fm_text *csv, fm_memory_verdicts *verdicts, const ch
         status = add_row(&job, &job.rows->items[i], plugins);
     if (status == FM_OK && csv->failed)
         status = fm_fail(err, FM_NO_MEMORY, "%s: no memory", path);
-    yaml_tree_free(root);
+    figure_file_close(&file);
     return status;
 }

@@ -1,29 +1,34 @@
+/* clang-format off: JSON keeps its lines */
 /* The protocol between the parent of a run and its workers: the only place that spells its fields.
  *
  * The parent executes `fragmark worker REQUEST.json ANSWER.json`. The request says what to do:
- *   { "job": "measure" | "truth",
- *     "plugin": "path of the method's .so", "floor": "path of the floor's .so, or empty",
+ *   { "job": "measure" or "truth",
+ *     "plugin": "path of the method's .so",
+ *     "floor": "path of the floor's .so, or empty",
  *     "common": "folder of the runner's GLSL",
  *     "device": "vulkan:0", "validation": false, "no_timers": false,
  *     "feed": "raster",
- *     "settings": { "k": "8", ... }      every key of fm_keys, as text
- *     "options": { "layout": "layer" },  the method's own, only those given
+ *     "settings": { "k": "8", ... },        every key of fm_keys, as text
+ *     "options": { "layout": "layer" },     the method's own, only those given
  *     "truth": "path of the truth file", "launch": 0,
- *     "check": true,                     capture and compare all fragments
+ *     "check": true,                        capture and compare all fragments
  *     "image": "path to write the image to, or empty" }
  *
  * The answer is written at the end; a worker that dies leaves none:
- *   { "status": a word of model/outcome.h, "message": "",
- *     "is_runs_fault": false,            true: the run's own files failed, nothing was measured,
- * and status is "skipped" "device_name": "...", "device_driver": "...", "device_api": "...",
+ *   { "status": "a word of model/outcome.h", "message": "",
+ *     "is_runs_fault": false,               true: the run's own files failed; nothing was measured,
+ *                                           and status is "skipped"
+ *     "device_name": "...", "device_driver": "...", "device_api": "...",
  *     "has_gpu_clock": false, "is_software": true,
- *     "modelled": { "scene": [...], "passes": [...], "buffers": [...] },     names
+ *     "modelled": { "scene": [...], "passes": [...], "buffers": [...] },    names
  *     "image_hash": "16 hex digits",
- *     "metrics": { "n": 128, "bytes_allocated": ..., ... }   one number a case, by its metric's
- * name "samples": [ { "frame": 0, "metric": "store_ms", "value": 1.25, "unit": "ms" }, ... ] }
+ *     "metrics": { "n": 128, ... },         one number a case, by its metric's name
+ *     "samples": [ { "frame": 0, "metric": "store_ms", "value": 1.25, "unit": "ms" }, ... ] }
+ *
  * Names, units and meanings of metrics are in model/metrics.h. With "check" the answer has the
  * metrics that come from comparing with truth; with timers=frame it has no times of passes. A
  * "truth" job writes the truth file and answers status, message and the metrics of truth. */
+/* clang-format on */
 #ifndef FM_PROTOCOL_H
 #define FM_PROTOCOL_H
 
@@ -71,7 +76,7 @@ typedef struct fm_read_request {
 fm_status request_read(fm_read_request *read, const char *path, fm_error *err);
 void request_free(fm_read_request *read);
 
-/* ---- what a worker answers: writing ---- */
+/* Writing an answer: the worker's side. */
 
 void answer_set_device(json_t *answer, const fm_device_caps *caps);
 /* Bytes of the message that are no UTF-8 become '?'. */
@@ -89,7 +94,7 @@ json_t *answer_make(fm_case_status status, const char *message);
 /* The same where the run is to blame. */
 json_t *answer_make_runs_fault(const char *message);
 
-/* ---- reading ---- */
+/* Reading an answer: the parent's side. */
 
 /* What is wrong with an answer's form; NULL: nothing. What follows asks answers that have passed.
  */

@@ -51,22 +51,27 @@ static void printed_table_is_reproduced_but_for_its_errata(void **state)
     text_free(&csv);
 }
 
+/* What every figure begins with: three lines. */
+#define HEAD   "id: t\npaper: none\ntitle: t\n"
 #define COLUMN "{ title: a, width_px: 2, height_px: 2, n: 3, k: 8, fragments: 5 }"
 
 static const struct damaged {
     const char *text, *message;
 } damaged[] = {
-    { "table: 3\n", "mapping" },
-    { "table:\n  columns: [" COLUMN "]\n", "'rows': a list" },
-    { "table:\n  columns: [" COLUMN "]\n  rows: [{ method: ab-aray, title: a, printed: [1] }]\n",
+    { HEAD "table: 3\n", "mapping" },
+    { HEAD "table:\n  columns: [" COLUMN "]\n", "rows: a list" },
+    { HEAD "table:\n  columns: [" COLUMN
+           "]\n  rows: [{ method: ab-aray, title: a, printed: [1] }]\n",
       "nearest" },
-    { "table:\n  columns: [" COLUMN "]\n  rows: [{ method: ab-array, title: a, printed: [] }]\n",
-      ":3: 'printed': one value" },
-    { "table:\n  columns: [" COLUMN "]\n  rows: [{ method: ab-array, title: a, printed: [x] }]\n",
+    { HEAD "table:\n  columns: [" COLUMN
+           "]\n  rows: [{ method: ab-array, title: a, printed: [] }]\n",
+      ":6: 'printed': one value" },
+    { HEAD "table:\n  columns: [" COLUMN
+           "]\n  rows: [{ method: ab-array, title: a, printed: [x] }]\n",
       "numbers" },
-    { "table:\n  columns: [{ title: a, width_px: -2 }]\n"
-      "  rows: [{ method: ab-array, title: a, printed: [1] }]\n",
-      ":2: 'width_px'" },
+    { HEAD "table:\n  columns: [{ title: a, width_px: -2 }]\n"
+           "  rows: [{ method: ab-array, title: a, printed: [1] }]\n",
+      ":5: width_px" },
 };
 
 static void damaged_tables_are_refused_with_their_place(void **state)
@@ -94,9 +99,9 @@ static void damaged_tables_are_refused_with_their_place(void **state)
 static void other_values_are_said_to_differ(void **state)
 {
     static const char text[] =
-        "table:\n  columns: [" COLUMN "]\n"
-        "  rows: [{ method: ab-array, title: a, printed: [0.5] }, "
-        "{ method: ab-array, title: a, added_per_pixel: 262116, printed: [1.00] }]\n";
+        HEAD "table:\n  columns: [" COLUMN "]\n"
+             "  rows: [{ method: ab-array, title: a, printed: [0.5] }, "
+             "{ method: ab-array, title: a, added_per_pixel: 262116, printed: [1.00] }]\n";
     char path[] = "/tmp/fm-table-XXXXXX";
     fm_text csv = { 0 };
     fm_memory_verdicts verdicts;
