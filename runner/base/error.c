@@ -4,27 +4,12 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char *const status_name[] = {
-    [FM_OK] = "ok",
-    [FM_INVALID] = "invalid",
-    [FM_UNSUPPORTED] = "unsupported",
-    [FM_NO_MEMORY] = "no memory",
-    [FM_IO] = "i/o",
-    [FM_SHADER] = "shader",
-    [FM_DEVICE_LOST] = "device lost",
-};
-_Static_assert(sizeof status_name / sizeof status_name[0] == FM_STATUS_COUNT, "one name a status");
-
-const char *fm_status_name(fm_status status)
-{
-    return status_name[status];
-}
-
 fm_status fm_fail(fm_error *err, fm_status status, const char *format, ...)
 {
     if (err == NULL)
         return status;
     err->status = status;
+    err->is_own = false;
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(err->message, sizeof err->message, format, arguments);

@@ -6,10 +6,13 @@
 #ifndef FM_ERROR_H
 #define FM_ERROR_H
 
+#include <stdbool.h>
+
 #include "fragmark/status.h"
 
 typedef struct fm_error {
     fm_status status;
+    bool is_own; /* a file that comes with fragmark failed: no plugin is to blame */
     char message[2048];
 } fm_error;
 
@@ -21,8 +24,5 @@ fm_status fm_fail(fm_error *err, fm_status status, const char *format, ...)
  * be NULL: then nothing is known of the failure, and the answer is FM_INVALID. */
 fm_status fm_error_prefix(fm_error *err, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
-
-/* "ok", "invalid", ...: one word for each status. */
-const char *fm_status_name(fm_status status);
 
 #endif

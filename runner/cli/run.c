@@ -163,10 +163,14 @@ int cli_run_plan(const fm_arguments *arguments, const cli_run_desc *desc)
     if (expect_devices(arguments->cli->devices, desc->plan, &err) != FM_OK)
         return cli_fail(arguments->cli, &err);
     tell_continued(arguments, desc->directory);
-    if (run_cases(&result, desc->plan, desc->plugins, &run, &err) != FM_OK ||
-        keep_memory(desc, &err) != FM_OK)
-        return fail_run(arguments, result.is_damaged, &err);
-    sum_up(arguments, &result, desc);
+    fm_status status = run_cases(&result, desc->plan, desc->plugins, &run, &err);
+    if (status == FM_OK)
+        status = keep_memory(desc, &err);
+    const int failed = status != FM_OK ? fail_run(arguments, result.is_damaged, &err) : CLI_DONE;
+    if (status == FM_OK || failed == CLI_INCOMPLETE)
+        sum_up(arguments, &result, desc);
+    if (status != FM_OK)
+        return failed;
     if (result.stop_signal == 0 && !arguments->no_report &&
         report(arguments, desc->directory) == CLI_CLAIM_FAILS)
         return CLI_CLAIM_FAILS;

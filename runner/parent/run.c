@@ -225,11 +225,10 @@ fm_status run_cases(fm_run_result *result, const fm_plan *plan, const fm_plugin_
         status = results_end(run.results, err);
     if (status == FM_OK)
         status = write_manifest(&run, run.stop_signal == 0, err);
-    if (status == FM_OK) {
+    if (status == FM_OK && run.stop_signal == 0)
+        run_remove_truths(&run);
+    if (run.results != NULL && !run.is_damaged)
         count_outcomes(result, &run);
-        if (run.stop_signal == 0)
-            run_remove_truths(&run);
-    }
     result->is_damaged = run.is_damaged;
     journal_close(run.journal);
     results_destroy(run.results);

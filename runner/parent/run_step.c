@@ -187,8 +187,11 @@ fm_status run_measure(run_state *run, size_t case_index, uint32_t launch, fm_err
         status = run_end_launch(run, case_index, launch, outcome.result, err);
     if (outcome.is_interrupted)
         return status;
-    if (status == FM_OK && is_unfinished)
+    if (status == FM_OK && is_unfinished) {
         status = fail_run(outcome.result, current, err);
+        if (answer_is_truth_unusable(outcome.result))
+            unlink(truth); /* whoever continues the run captures it anew */
+    }
     progress_end(&run->progress, outcome.seconds);
     json_decref(outcome.result);
     return status;

@@ -8,7 +8,6 @@
 #include "model/columns.h"
 #include "results.h"
 
-enum { SAMPLES_WANTED = 5 };           /* fewer at full clock: no statement */
 static const double clock_slack = 1.4; /* a canary above this many of the fastest is off clock */
 
 /* What the columns of one row read. */
@@ -61,7 +60,7 @@ static const char *method_version(const row_state *row)
 static void write_message(fm_text *text, const row_state *row)
 {
     fm_text message = { 0 };
-    if (row->excluded > 0 && row->samples < SAMPLES_WANTED)
+    if (row->excluded > 0 && row->samples < FM_SAMPLES_WANTED)
         text_add(&message, "unclear: only %zu samples at full clock%s", row->samples,
                  row->result->message[0] != '\0' ? "; " : "");
     text_add(&message, "%s", row->result->message);

@@ -220,8 +220,11 @@ static fm_status add_file(fm_text *text, const fm_shader_folders *folders, const
     fm_status status = shader_file_find(path, folders, file, err);
     if (status == FM_OK)
         status = text_read_file(&bytes, &count, path, SHADER_FILE_MAX_BYTES, err);
-    if (status != FM_OK)
+    if (status != FM_OK) {
+        if (err != NULL)
+            err->is_own = strncmp(file, "common/", 7) == 0;
         return status;
+    }
     for (char *line = bytes; status == FM_OK && *line != '\0';) {
         char *end = strchr(line, '\n');
         const size_t length = end != NULL ? (size_t)(end - line) + 1 : strlen(line);

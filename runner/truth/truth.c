@@ -109,15 +109,24 @@ fm_status truth_open(fm_truth **out, const char *path, fm_error *err)
     fm_truth *truth = calloc(1, sizeof *truth);
     const int fd = open(path, O_RDONLY | O_CLOEXEC);
     *out = NULL;
-    if (truth == NULL || fd < 0 || fstat(fd, &info) != 0) {
+    if (truth == NULL) {
+        status = fm_fail(err, FM_NO_MEMORY, "%s: no memory", path);
+        goto out;
+    }
+    if (fd < 0 || fstat(fd, &info) != 0) {
         status = fm_fail(err, FM_IO, "%s: %s", path, strerror(errno));
         goto out;
     }
     truth->map_bytes = (uint64_t)info.st_size;
     truth->map = mmap(NULL, truth->map_bytes, PROT_READ, MAP_PRIVATE, fd, 0);
-    if (truth->map == MAP_FAILED || truth->map_bytes < sizeof(truth_header)) {
-        truth->map = truth->map == MAP_FAILED ? NULL : truth->map;
-        status = fm_fail(err, FM_IO, "%s: not a truth file", path);
+    if (truth->map == MAP_FAILED) {
+        truth->map = NULL;
+        status = fm_fail(err, errno == ENOMEM ? FM_NO_MEMORY : FM_IO, "%s: %s", path,
+                         truth->map_bytes == 0 ? "damaged truth file" : strerror(errno));
+        goto out;
+    }
+    if (truth->map_bytes < sizeof(truth_header)) {
+        status = fm_fail(err, FM_IO, "%s: damaged truth file", path);
         goto out;
     }
     const truth_header *header = truth->map;

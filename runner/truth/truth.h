@@ -23,8 +23,8 @@ typedef struct fm_truth {
     uint64_t map_bytes;
 } fm_truth;
 
-/* Maps a file that truth_capture wrote. FM_IO: it cannot be read, or is no truth. truth_close also
- * of NULL. */
+/* Maps a file that truth_capture wrote. FM_IO: it cannot be read, or is damaged; FM_NO_MEMORY.
+ * truth_close also of NULL. */
 fm_status truth_open(fm_truth **truth, const char *path, fm_error *err);
 void truth_close(fm_truth *truth);
 

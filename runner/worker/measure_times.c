@@ -72,10 +72,12 @@ static fm_status sample_method(fm_sample *sample, fm_measurement *measurement,
     return status;
 }
 
-static fm_status sample_floor(fm_sample *sample, const launch_pair *pair, fm_error *err)
+static fm_status sample_floor(fm_sample *sample, fm_measurement *measurement,
+                              const launch_pair *pair, fm_error *err)
 {
     fm_frame_result result;
     fm_status status = instance_frame(&result, pair->floor, NULL, err);
+    measurement->is_floors = status != FM_OK;
     sample->floor_frame_ns = frame_passes_ns(&result);
     sample->floor_store_ns = store_time(&result, pair->desc->floor->method);
     return status;
@@ -85,11 +87,11 @@ static fm_status sample_floor(fm_sample *sample, const launch_pair *pair, fm_err
 static fm_status sample_once(fm_sample *sample, fm_measurement *measurement,
                              const launch_pair *pair, bool floor_first, fm_error *err)
 {
-    fm_status status = floor_first ? sample_floor(sample, pair, err) : FM_OK;
+    fm_status status = floor_first ? sample_floor(sample, measurement, pair, err) : FM_OK;
     if (status == FM_OK)
         status = sample_method(sample, measurement, pair, err);
     if (status == FM_OK && !floor_first)
-        status = sample_floor(sample, pair, err);
+        status = sample_floor(sample, measurement, pair, err);
     return status;
 }
 
@@ -166,6 +168,7 @@ fm_status measure_times(fm_measurement *measurement, const fm_measure_desc *desc
     const fm_ledger *ledger = &stage->device->ledger;
     fm_instance *method = NULL, *floor = NULL;
     fm_status status = instance_create(&floor, desc->floor, err);
+    measurement->is_floors = status != FM_OK;
     if (status == FM_OK)
         status = instance_create(&method, desc->method, err);
     if (status == FM_OK)

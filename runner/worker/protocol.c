@@ -161,6 +161,11 @@ void answer_set_runs_fault(json_t *answer, const char *message)
     json_object_set_new(answer, "is_runs_fault", json_true());
 }
 
+void answer_set_truth_unusable(json_t *answer)
+{
+    json_object_set_new(answer, "is_truth_unusable", json_true());
+}
+
 void answer_set_image_hash(json_t *answer, uint64_t hash)
 {
     char digits[17];
@@ -225,9 +230,10 @@ const char *answer_fault(const json_t *answer)
     const json_t *metrics = json_object_get(answer, "metrics");
     if (!json_is_object(answer))
         return "not an object";
-    if (!case_status_parse(&status, json_string_value(json_object_get(answer, "status"))) ||
-        (status == FM_CASE_SKIPPED) != answer_is_runs_fault(answer))
+    if (!case_status_parse(&status, json_string_value(json_object_get(answer, "status"))))
         return "'status' is none of the known words";
+    if ((status == FM_CASE_SKIPPED) != answer_is_runs_fault(answer))
+        return "'status' and 'is_runs_fault' contradict each other";
     if (metrics != NULL && !json_is_object(metrics))
         return "'metrics' is not an object";
     if (samples != NULL && !json_is_array(samples))
@@ -251,6 +257,11 @@ fm_case_status answer_status(const json_t *answer)
 bool answer_is_runs_fault(const json_t *answer)
 {
     return is_set(answer, "is_runs_fault");
+}
+
+bool answer_is_truth_unusable(const json_t *answer)
+{
+    return is_set(answer, "is_truth_unusable");
 }
 
 const char *answer_message(const json_t *answer)

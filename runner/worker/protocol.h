@@ -18,9 +18,9 @@
  *   { "status": "a word of model/outcome.h", "message": "",
  *     "is_runs_fault": false,               true: the run's own files failed; nothing was measured,
  *                                           and status is "skipped"
- *     "device_name": "...", "device_driver": "...", "device_api": "...",
- *     "has_gpu_clock": false, "is_software": true,
- *     "modelled": { "scene": [...], "passes": [...], "buffers": [...] },    names
+ *     "is_truth_unusable": false,           true, with is_runs_fault: the truth file is to be made
+ * anew "device_name": "...", "device_driver": "...", "device_api": "...", "has_gpu_clock": false,
+ * "is_software": true, "modelled": { "scene": [...], "passes": [...], "buffers": [...] },    names
  *     "image_hash": "16 hex digits",
  *     "metrics": { "n": 128, ... },         one number a case, by its metric's name
  *     "samples": [ { "frame": 0, "metric": "store_ms", "value": 1.25, "unit": "ms" }, ... ] }
@@ -83,6 +83,8 @@ void answer_set_device(json_t *answer, const fm_device_caps *caps);
 void answer_set_verdict(json_t *answer, fm_case_status status, const char *message);
 /* The run's own files failed: no verdict on the method. */
 void answer_set_runs_fault(json_t *answer, const char *message);
+/* Beside that: it was the truth file, which is damaged or cannot be read. */
+void answer_set_truth_unusable(json_t *answer);
 void answer_set_image_hash(json_t *answer, uint64_t hash);
 /* Takes the references. */
 void answer_set_measured(json_t *answer, json_t *metrics, json_t *samples);
@@ -101,6 +103,7 @@ json_t *answer_make_runs_fault(const char *message);
 const char *answer_fault(const json_t *answer);
 fm_case_status answer_status(const json_t *answer);
 bool answer_is_runs_fault(const json_t *answer);
+bool answer_is_truth_unusable(const json_t *answer);
 const char *answer_message(const json_t *answer);    /* "": there is none */
 const char *answer_image_hash(const json_t *answer); /* the same */
 json_t *answer_metrics(const json_t *answer);        /* borrowed; NULL: none */

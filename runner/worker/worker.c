@@ -32,8 +32,11 @@ typedef struct launch_job {
     fm_measurement measurement;
     uint64_t wrong_tiles; /* of a technique */
     fm_error error;
-    bool is_plugins; /* the plugin is at work: what fails now is its fault */
-    bool is_opening; /* it is being opened: whatever the status, it is refused */
+    bool has_request; /* it was read and understood */
+    bool is_plugins;  /* the plugin is at work: what fails now is its fault */
+    bool is_opening;  /* it is being opened: whatever the status, it is refused */
+    bool is_truths;   /* the truth file is read */
+    bool is_floors;   /* the floor, which fragmark brings, is opened */
 } launch_job;
 
 static fm_status read_feed(launch_job *job)
@@ -74,9 +77,11 @@ static fm_status open_plugins(launch_job *job)
     job->is_opening = true;
     fm_status status =
         plugin_open(&job->method, job->request->plugin, job->request->common, &job->error);
-    if (status == FM_OK && !has_frames(job))
-        status = plugin_open(&job->floor, job->request->floor, job->request->common, &job->error);
     job->is_opening = status != FM_OK;
+    if (status != FM_OK || has_frames(job))
+        return status;
+    status = plugin_open(&job->floor, job->request->floor, job->request->common, &job->error);
+    job->is_floors = status != FM_OK;
     return status;
 }
 
@@ -90,10 +95,23 @@ static fm_status open_scene(launch_job *job)
     return not_the_plugins(status);
 }
 
-/* Files that the run itself writes and reads: disks fill, and somebody deletes. */
+static bool is_bad_input(fm_status status)
+{
+    return status == FM_IO || status == FM_INVALID || status == FM_SHADER;
+}
+
+/* What the run itself writes and reads, its requests, and what fragmark brings: GLSL of the runner
+ * and the floor. Disks fill, somebody deletes, an installation breaks; no method did anything
+ * wrong. */
 static bool is_runs_fault(const launch_job *job, fm_status status)
 {
-    return status == FM_IO && !job->is_opening && !job->is_plugins;
+    if (status == FM_OK)
+        return false;
+    if (!job->has_request || job->is_floors)
+        return true;
+    if (job->measurement.is_floors)
+        return is_bad_input(status);
+    return status == FM_IO && (job->error.is_own || (!job->is_opening && !job->is_plugins));
 }
 
 /* What a failure says of the case. The runner's own shaders, which a device refuses, and scenes
@@ -167,6 +185,7 @@ static fm_status frames_job(launch_job *job)
         status = not_the_plugins(settings_finish(&job->settings, &job->error));
     if (status == FM_OK)
         status = technique_job_run(job->answer, &job->wrong_tiles, &desc, &job->error);
+    job->is_truths = status == FM_IO && job->method != NULL;
     return status;
 }
 
@@ -257,6 +276,14 @@ static fm_status run_method(launch_job *job)
     return status;
 }
 
+static fm_status open_truth(launch_job *job)
+{
+    job->is_truths = true;
+    const fm_status status = truth_open(&job->truth, job->request->truth, &job->error);
+    job->is_truths = status != FM_OK;
+    return status;
+}
+
 static fm_status measure_job(launch_job *job)
 {
     fm_status status = open_plugins(job);
@@ -269,7 +296,7 @@ static fm_status measure_job(launch_job *job)
     if (status == FM_OK)
         status = open_scene(job);
     if (status == FM_OK)
-        status = truth_open(&job->truth, job->request->truth, &job->error);
+        status = open_truth(job);
     if (status == FM_OK)
         status =
             stage_create(&job->stage, job->device, job->scene, job->truth, job->feed, &job->error);
@@ -329,15 +356,19 @@ int worker_main(const char *request_path, const char *answer_path, const fm_devi
     launch_job job = { .devices = devices, .answer = json_object() };
     job.request = &job.read.request;
     fm_status status = request_read(&job.read, request_path, &job.error);
+    job.has_request = status == FM_OK;
     job.settings = job.read.settings;
     if (status == FM_OK)
         status = job.request->is_truth_job ? truth_job(&job) : measure_job(&job);
     const fm_case_status word = case_status_of(&job, status);
     note_validation(&job);
-    if (is_runs_fault(&job, status))
+    if (is_runs_fault(&job, status)) {
         answer_set_runs_fault(job.answer, job.error.message);
-    else
+        if (job.is_truths)
+            answer_set_truth_unusable(job.answer);
+    } else {
         answer_set_verdict(job.answer, word, job.error.message);
+    }
     const int written = json_dump_file(job.answer, answer_path, JSON_INDENT(1));
     release(&job);
     return written == 0 ? 0 : WORKER_EXIT_NO_ANSWER;

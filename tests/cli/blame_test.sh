@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# blame_test.sh PROGRAM: files of the run that cannot be written or read are the run's fault. It stops
-# with exit code 5, nobody gets a verdict, and the same command finishes once the fault is gone.
+# blame_test.sh PROGRAM: what the run cannot write or read, and what fragmark brings, is the run's fault.
+# It stops with exit code 5, nobody gets a verdict, and the same command finishes once the fault is gone.
 set -euo pipefail
 program=$1
 work=$(mktemp -d)
@@ -32,10 +32,29 @@ mkdir "${truth[0]}"
 expect_incomplete "a folder at the truth's path"
 
 rmdir "${truth[0]}" "$work/out/images/$id.rgba32f"
-mv "$work/kept" "${truth[0]}"
-"$program" "${arguments[@]}" 2>"$work/talk"
-if ! grep -q "$id,ok," "$work/out/summary.csv"; then
-    echo "the continued run is not ok: $(tail -1 "$work/out/summary.csv")"
-    failed=1
-fi
+head -c 100 "$work/kept" >"${truth[0]}"
+expect_incomplete "a truth file that is cut off"
+
+# finish WHAT: the same command, and the case is ok
+finish() {
+    "$program" "${arguments[@]}" 2>"$work/talk" || true
+    if ! grep -q ",ok," "$work/out/summary.csv"; then
+        echo "$1: the continued run is not ok: $(tail -1 "$work/out/summary.csv") $(cat "$work/talk")"
+        failed=1
+    fi
+}
+finish "after a truth that was made anew"
+
+# Plugins of a broken installation: the runner's GLSL, and the floor.
+methods=$(dirname "$program")/methods
+cp -rL "$methods" "$work/methods"
+export FRAGMARK_PLUGIN_PATH=$work/methods
+for broken in common/emit.glsl null/store.glsl; do
+    rm -rf "$work/out"
+    mv "$work/methods/$broken" "$work/kept"
+    [ "$broken" = common/emit.glsl ] || echo 'void store(' >"$work/methods/$broken"
+    expect_incomplete "$broken is broken"
+    mv "$work/kept" "$work/methods/$broken"
+    finish "after $broken was mended"
+done
 exit "$failed"

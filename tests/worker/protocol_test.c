@@ -93,8 +93,8 @@ static void answer_fault_names_what_is_wrong(void **state)
     assert_fault("[]", "not an object");
     assert_fault("{}", "'status'");
     assert_fault("{\"status\": \"fine\"}", "'status'");
-    assert_fault("{\"status\": \"skipped\"}", "'status'");
-    assert_fault("{\"status\": \"ok\", \"is_runs_fault\": true}", "'status'");
+    assert_fault("{\"status\": \"skipped\"}", "contradict");
+    assert_fault("{\"status\": \"ok\", \"is_runs_fault\": true}", "contradict");
     assert_fault("{\"status\": \"ok\", \"metrics\": []}", "'metrics'");
     assert_fault("{\"status\": \"ok\", \"samples\": {}}", "'samples'");
     assert_fault("{\"status\": \"ok\", \"samples\": [{\"frame\": -1, \"metric\": \"x\", "
