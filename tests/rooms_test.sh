@@ -22,12 +22,12 @@ symbols() {
     done <"$list"
 }
 
-# "inc ROOM FILE HEADER-FOLDER HEADER" of all quoted includes that name a folder
+# "inc ROOM FILE HEADER" of all quoted includes that name a folder; a folder within a room is its
 includes() {
     local room folder archive
     while read -r room folder archive; do
-        { grep -HE '^#include "[a-z_/]+/[a-z_0-9]+\.h"' "$root/$folder"/*.[ch] "$root/$folder"/*.cpp 2>/dev/null ||
-            true; } | sed -E "s#^$root/([^:]+):\#include \"(.*)/([^/]+)\"#inc $room \1 \2 \2/\3#"
+        { find "$root/$folder" -name '*.[ch]' -o -name '*.cpp' | xargs grep -HE '^#include "[a-z_]+/' || true; } |
+            sed -E "s#^$root/([^:]+):\#include \"([^\"]+)\".*#inc $room \1 \2#"
     done <"$list"
 }
 
@@ -35,9 +35,21 @@ includes() {
     $1 == "room" { order[$2] = ++rooms; folder = $3; sub(/^(runner|reports)\//, "", folder); at[folder] = $2; next }
     $1 == "def" { home[$4] = $3; room_of[$3] = $2; next }
     $1 == "use" { room_of[$3] = $2; uses[++count] = $3 " " $4; next }
-    $1 == "inc" && $4 in at && order[at[$4]] > order[$2] {
-        print $3 " includes " $5 " of room " at[$4] ", which stands above " $2
-        failed = 1
+    # The room whose folder a path lies in: the longest that is a part of it.
+    function room_at(path) {
+        while (!(path in at) && sub(/\/[^\/]*$/, "", path))
+            ;
+        return path in at ? at[path] : ""
+    }
+    $1 == "inc" {
+        file = $3
+        sub(/^(runner|reports)\//, "", file)
+        from = room_at(file)
+        to = room_at($4)
+        if (from == $2 && to != "" && order[to] > order[from]) {
+            print $3 " includes " $4 " of room " to ", which stands above " from
+            failed = 1
+        }
     }
     END {
         for (i = 1; i <= count; i++) {
