@@ -112,9 +112,9 @@ static void add_head(fm_text *page, size_t column)
 {
     const fm_metric_info *metric = &fm_metrics[columns[column].metric];
     const bool is_metric = columns[column].title == NULL;
-    text_add(page, "<th title=\"%s\">%s</th>",
-             is_metric ? metric->definition : columns[column].help,
-             is_metric ? metric->name : columns[column].title);
+    text_add(page, "<th title=\"");
+    html_add(page, is_metric ? metric->definition : columns[column].help);
+    text_add(page, "\">%s</th>", is_metric ? metric->name : columns[column].title);
 }
 
 void case_table_add(fm_text *page, const fm_group *group)

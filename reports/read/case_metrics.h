@@ -6,9 +6,6 @@
 #include "base/stats.h"
 #include "result_files.h"
 
-/* Times of fewer samples say little: a claim takes them as within 15 %, and a report says so. */
-enum { FM_SAMPLES_WANTED = 5 };
-
 /* Any metric of a case: fps, mib (bytes_allocated) or fps_per_mib, a column of summary.csv, else
  * the median of its samples of that name; NAN when there is none. */
 double case_metric(const fm_result_files *results, const fm_case_row *result, const char *name);

@@ -42,6 +42,12 @@ static const struct {
 };
 enum { KEY_COUNT = sizeof keys / sizeof keys[0] };
 
+/* A fact that has no row would lie on the id. */
+static bool fact_is_kept(fm_fact fact)
+{
+    return fact_at[fact] != SIZE_MAX && (fact_at[fact] != 0 || fact == FM_FACT_CASE_ID);
+}
+
 static size_t key_index(const char *name)
 {
     size_t i = 0;
@@ -90,8 +96,7 @@ static void add_look(fm_case_row *result, const fm_provenance *manifest)
 
 static fm_status read_text(fm_case_row *result, size_t at, const char *text)
 {
-    if (at != SIZE_MAX)
-        *(const char **)(void *)((char *)result + at) = text;
+    *(const char **)(void *)((char *)result + at) = text;
     return FM_OK;
 }
 
@@ -103,7 +108,7 @@ static fm_status read_cell(fm_case_row *result, const fm_column *column, const f
     size_t key;
     switch (column->kind) {
     case FM_COLUMN_FACT:
-        return read_text(result, fact_at[column->fact], text);
+        return fact_is_kept(column->fact) ? read_text(result, fact_at[column->fact], text) : FM_OK;
     case FM_COLUMN_METRIC:
         return table_number(&result->metric[column->metric], table, row, index, err);
     case FM_COLUMN_KEY:

@@ -134,6 +134,9 @@ fm_status instance_emit(fm_instance *instance, const fm_band *band, fm_error *er
     for (size_t i = 0; i < instance->pass_count && status == FM_OK; i++)
         if (instance->method->passes[i].emits)
             status = frame_pass(&frame, i, 0);
+    /* After an error the frame that is open must still be ended, and the first error stays. */
+    fm_error ignored;
+    frame.err = status == FM_OK ? err : &ignored;
     const fm_status ended = frame_flush(&frame);
     return status == FM_OK ? ended : status;
 }

@@ -119,6 +119,10 @@ typedef struct fm_metric_family {
 enum { FM_METRIC_FAMILY_COUNT = 4 };
 extern const fm_metric_family fm_metric_families[FM_METRIC_FAMILY_COUNT];
 
+/* Times of fewer samples say little: a claim takes them as within 15 %, a report says so, and a
+ * case whose other samples were off full clock is unclear. */
+enum { FM_SAMPLES_WANTED = 5 };
+
 /* false: no metric has this name; *metric is then untouched. */
 bool metric_find(fm_metric *metric, const char *name);
 /* Whether the name is a time in milliseconds, or a rate that follows from one. */

@@ -99,7 +99,7 @@ typedef enum fm_full_screen {
 /* What has a timer: each pass, or all of them one. */
 typedef enum fm_timers { FM_TIMERS_PASSES, FM_TIMERS_FRAME, FM_TIMERS_COUNT } fm_timers;
 
-/* Occupancy-map culling: culling.h. */
+/* Culling by an occupancy map, before the method's own passes. */
 typedef enum fm_culling { FM_CULLING_NONE, FM_CULLING_OCCUPANCY, FM_CULLING_COUNT } fm_culling;
 typedef enum fm_cull_range {
     FM_CULL_RANGE_HULL,

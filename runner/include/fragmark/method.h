@@ -1,9 +1,11 @@
+/* clang-format off: code and lists keep their lines */
 /* The plugin interface: a method as data. This file, with resource.h and pass.h, is the manual.
  *
  * A plugin is a shared object that exports one symbol,
  *
- *     const fm_method_desc fm_method = { .abi = FM_ABI, .size_bytes = sizeof(fm_method_desc), ...
- * };
+ *     const fm_method_desc fm_method = {
+ *         .abi = FM_ABI, .size_bytes = sizeof(fm_method_desc), ...
+ *     };
  *
  * and lies in a folder of the method's name, beside the GLSL file of each pass:
  * kplus-array/kplus-array.so, kplus-array/store.glsl, ... The runner checks the whole descriptor
@@ -20,6 +22,7 @@
  * limit. A mistake is refused with a message that names plugin, pass or resource, and field. So is
  * a field that says "not yet": it is there so that the ABI need not change once the runner can do
  * it. */
+/* clang-format on */
 #ifndef FRAGMARK_METHOD_H
 #define FRAGMARK_METHOD_H
 

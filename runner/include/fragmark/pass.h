@@ -1,3 +1,4 @@
+/* clang-format off: lists keep their lines */
 /* The passes of a method, what they draw with, and the loops around them.
  *
  * A plugin includes fragmark/method.h, which includes this file. In all structs zero means "the
@@ -68,6 +69,7 @@
  * frame and the same in each run; FM_NEAR_OVER_FAR, near plane over far plane, 0 where that is not
  * known; the range of depths of the scene's hull in feeds other than triangles (a pass with a cover
  * finds that of each pixel). */
+/* clang-format on */
 #ifndef FRAGMARK_PASS_H
 #define FRAGMARK_PASS_H
 

@@ -16,11 +16,6 @@ static const char *const names[MODEL_PARAMETER_COUNT] = {
 #undef MODEL_NAME
 };
 
-const char *model_parameter_name(size_t index)
-{
-    return names[index];
-}
-
 double *model_parameter(model_parameters *parameters, size_t index)
 {
     return (double *)(void *)((char *)parameters + index * sizeof(double));

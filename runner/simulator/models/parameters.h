@@ -70,9 +70,7 @@ typedef struct model_table {
  * their hp). FM_INVALID: an unknown name, with the nearest; a value that is no positive number, or
  * a queue longer than MODEL_QUEUE_MAX. */
 fm_status model_table_read(model_table *table, const char *overrides, fm_error *err);
-
 /* Parameters by number, in the order of the list. */
-const char *model_parameter_name(size_t index);
 double *model_parameter(model_parameters *parameters, size_t index);
 
 #endif
