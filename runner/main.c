@@ -11,7 +11,7 @@ static const struct {
     fm_command *run;
     const char *help;
 } commands[] = {
-    { "list", "fragmark list", cli_list, "methods, scenes, devices or figures there are" },
+    { "list", "fragmark list", cli_list, "methods, scenes, devices, figures or metrics there are" },
     { "doctor", "fragmark doctor", cli_doctor,
       "what this machine can run, and how to fix what it cannot" },
     { "plan", "fragmark plan", cli_plan,

@@ -4,7 +4,7 @@
 # header of one, and the objects of a room form no circle. What breaks this is printed with the two
 # files and the name. Symbols are those that the linker sees; static functions are a file's own.
 set -euo pipefail
-list=$1
+list=${1:?usage: rooms_test.sh LIST, such as build/dev/tests/runner_rooms.txt}
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 
 # "def ROOM FILE SYMBOL" and "use ROOM FILE SYMBOL" of all objects
@@ -22,12 +22,12 @@ symbols() {
     done <"$list"
 }
 
-# "inc ROOM FILE HEADER" of all quoted includes that name a folder; a folder within a room is its
+# "inc ROOM FILE HEADER" of all includes, however they are written; a folder within a room is its
 includes() {
     local room folder archive
     while read -r room folder archive; do
-        { find "$root/$folder" -name '*.[ch]' -o -name '*.cpp' | xargs grep -HE '^#include "[a-z_]+/' || true; } |
-            sed -E "s#^$root/([^:]+):\#include \"([^\"]+)\".*#inc $room \1 \2#"
+        { find "$root/$folder" -name '*.[ch]' -o -name '*.cpp' | xargs grep -HE '^ *# *include' || true; } |
+            sed -E "s#^$root/([^:]+): *\# *include *[<\"]([^>\"]+)[>\"].*#inc $room \1 \2#"
     done <"$list"
 }
 
@@ -45,7 +45,14 @@ includes() {
         file = $3
         sub(/^(runner|reports)\//, "", file)
         from = room_at(file)
-        to = room_at($4)
+        header = $4
+        gsub(/\.\.\//, "", header)
+        sub(/^(runner|reports)\//, "", header)
+        if (from == $2 && header ~ /^(devices\.h|record\/)/) {
+            print $3 " includes " $4 ", which no room may: it is a program\047s"
+            failed = 1
+        }
+        to = header ~ /\// ? room_at(header) : ""
         if (from == $2 && to != "" && order[to] > order[from]) {
             print $3 " includes " $4 " of room " to ", which stands above " from
             failed = 1
@@ -62,12 +69,13 @@ includes() {
                 print from " uses " use[2] " of " to ": room " room_of[to] " stands above " room_of[from]
                 failed = 1
             }
-            if (!((from, to) in arrow)) {
+            if (room_of[to] == room_of[from] && !((from, to) in arrow)) {
                 arrow[from, to] = use[2]
                 out[from]++
             }
         }
-        # Files that use none that is left are taken away; what stays is in a circle, or above one.
+        # Within a room: files that use none that is left are taken away; what stays is in a circle,
+        # or above one.
         do {
             changed = 0
             for (pair in arrow) {

@@ -140,7 +140,10 @@ fm_status cases_read(fm_case_row **cases, const fm_table *table, const fm_proven
     size_t index[FM_COLUMN_COUNT];
     fm_status status = FM_OK;
     *cases = NULL;
-    for (size_t i = 0; i < FM_COLUMN_COUNT && status == FM_OK; i++)
+    for (size_t i = 0; i < FM_COLUMN_COUNT; i++)
+        index[i] =
+            table_column(table, column_name(&fm_columns[i])); /* a later one may be missing */
+    for (size_t i = 0; i < FM_COLUMN_REQUIRED && status == FM_OK; i++)
         status = table_need_column(&index[i], table, column_name(&fm_columns[i]), err);
     if (status != FM_OK)
         return status;

@@ -61,7 +61,7 @@ char *cli_command_text(int argc, char **argv)
     return text.bytes;
 }
 
-/* CLI_CLAIM_FAILS or CLI_DONE. */
+/* CLI_DONE, CLI_CLAIM_FAILS, or CLI_INCOMPLETE: the results are there, and the report is not. */
 static int report(const fm_arguments *arguments, const char *directory)
 {
     const fm_cli *cli = arguments->cli;
@@ -72,10 +72,11 @@ static int report(const fm_arguments *arguments, const char *directory)
         return CLI_DONE;
     }
     const int code = report_execute(program, directory, arguments->reference);
-    if (code != CLI_DONE && code != CLI_CLAIM_FAILS)
-        fprintf(cli->talk, "%s failed (%d); again with: fragmark report %s\n", program, code,
-                directory);
-    return code == CLI_CLAIM_FAILS ? code : CLI_DONE;
+    if (code == CLI_DONE || code == CLI_CLAIM_FAILS)
+        return code;
+    fprintf(cli->talk, "%s failed (%d); again with: fragmark report %s\n", program, code,
+            directory);
+    return CLI_INCOMPLETE;
 }
 
 static int exit_code(const fm_run_result *result, const fm_plan *plan)
@@ -171,10 +172,13 @@ int cli_run_plan(const fm_arguments *arguments, const cli_run_desc *desc)
         sum_up(arguments, &result, desc);
     if (status != FM_OK)
         return failed;
-    if (result.stop_signal == 0 && !arguments->no_report &&
-        report(arguments, desc->directory) == CLI_CLAIM_FAILS)
-        return CLI_CLAIM_FAILS;
-    return exit_code(&result, desc->plan);
+    const int code = exit_code(&result, desc->plan);
+    const int reported = result.stop_signal == 0 && !arguments->no_report
+                             ? report(arguments, desc->directory)
+                             : CLI_DONE;
+    if (reported == CLI_CLAIM_FAILS)
+        return reported;
+    return code != CLI_DONE ? code : reported;
 }
 
 int cli_run(const fm_cli *cli, int argc, char **argv)

@@ -1,5 +1,6 @@
 /* The columns of summary.csv, in their order: one row a case. The parent writes by this table, and
- * reports read by it. New columns come at the end, so that older readers keep working. */
+ * reports read by it. New columns come at the end: older readers keep working, and readers take
+ * what an older file lacks for empty. */
 #ifndef FM_COLUMNS_H
 #define FM_COLUMNS_H
 
@@ -40,7 +41,11 @@ typedef struct fm_column {
     fm_metric metric;
 } fm_column;
 
-enum { FM_COLUMN_COUNT = 51 };
+enum {
+    FM_COLUMN_COUNT = 51,
+    FM_COLUMN_REQUIRED =
+        51 /* the first of them: files of schema 1 have these, later ones may lack */
+};
 extern const fm_column fm_columns[FM_COLUMN_COUNT];
 
 /* As the first line of summary.csv spells it. */

@@ -43,7 +43,9 @@ static fm_status check_fields(const void *item, const later_field *fields, size_
 {
     for (size_t i = 0; i < count; i++)
         if (is_set(item, &fields[i]))
-            return fm_fail(err, FM_INVALID, "%s: not yet", fields[i].name);
+            return fm_fail(err, FM_INVALID,
+                           "%s: not yet: ABI 5 has it, this program cannot do it; leave it zero",
+                           fields[i].name);
     return FM_OK;
 }
 

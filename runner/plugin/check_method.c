@@ -112,10 +112,11 @@ static fm_status check_all(const fm_method_desc *method, fm_error *err)
                                 .passes = { .what = "pass", .list = "passes" } };
     if (method->abi != FM_ABI)
         return fm_fail(err, FM_INVALID,
-                       "abi: the plugin has %" PRIu32 ", which is %s than this program's %u: build "
-                       "it again%s",
+                       "abi: the plugin has %" PRIu32 ", which is %s than this program's %u: %s",
                        method->abi, method->abi < FM_ABI ? "older" : "newer", FM_ABI,
-                       method->abi < FM_ABI ? "; CHANGELOG.md says what changed" : "");
+                       method->abi < FM_ABI ? "build it again; CHANGELOG.md says what changed"
+                                            : "build it with this program's headers, or use a "
+                                              "newer fragmark");
     if (method->size_bytes != sizeof *method)
         return fm_fail(err, FM_INVALID,
                        "size_bytes: the plugin has %" PRIu32 ", this program takes %zu",

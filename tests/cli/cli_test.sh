@@ -97,6 +97,11 @@ if [ -x "$(dirname "$program")/fragmark-report" ]; then
     check required_claim_of_a_table_fails 1 "must hold" \
         env FRAGMARK_FIGURE_PATH="$here/figures" "$program" reproduce KP-20 -o "$here/wrong"
 fi
+if [ -x "$(dirname "$program")/fragmark-report" ]; then
+    mkdir -p "$here/blocked/report.html"
+    check report_that_fails_is_told 5 "again with" "$program" run --method z-buffer --device dummy \
+        -a n=4 -a width_px=16 -a height_px=16 -a frames=1 -a launches=1 --no-images -o "$here/blocked"
+fi
 check report_needs_a_folder 2 "which DIR" "$program" report
 
 run() { "$program" run --method kplus-array,z-buffer "${small[@]}" -a launches="$1" -o "$here/$2"; }

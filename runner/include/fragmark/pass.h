@@ -45,8 +45,8 @@
  *                 front (0, 1, ...), in front-to-back order, or from the back (-1, -2, ...), which
  *                 needs FM_TRAIT_EMITS_BACK. A pass over tiles puts its calls between its own calls
  *                 of fm_emit_begin(pixel) and fm_emit_end(pixel), made once for every pixel of the
- *                 viewport. So does an indirect pass, for every pixel if it is the first that emits
- *                 fm_blended(pixel, colour) hands over one vec4 (premultiplied) instead, where an
+ *                 viewport. So does an indirect pass, for every pixel if it is the first that
+ * emits. fm_blended(pixel, colour) hands over one vec4 (premultiplied) instead, where an
  *                 approximation has a colour and no fragments: its image is then its only error
  *   losses        fm_lost(pixel) counts a fragment that found no room: never lose one in silence
  *   events        fm_culled() and fm_locked() count in the checked build only
