@@ -166,8 +166,6 @@ static void change(fm_adversary *s)
     }
 }
 
-/* ---- frame by frame ---- */
-
 void adversary_start(fm_adversary *made, const fm_adversary_desc *desc)
 {
     *made = (fm_adversary){ .desc = *desc, .state = desc->seed * 0x9E3779B97F4A7C15u + 1 };
@@ -190,8 +188,6 @@ void adversary_frame(fm_frame_builder *builder, fm_adversary *adversary)
          (adversary->desc.flags & ADVERSE_STATIC) == 0 && times > 0; times--)
         change(adversary);
 }
-
-/* ---- the sequence ---- */
 
 typedef struct generator {
     fm_sequence base;

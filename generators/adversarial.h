@@ -6,7 +6,7 @@
 #define FM_GENERATORS_ADVERSARIAL_H
 
 #include "model/settings.h"
-#include "scene/frames.h"
+#include "scene/frame_builder.h"
 
 /* What draw calls may be; zero: opaque depth writers with LESS, never two at a depth. */
 enum {

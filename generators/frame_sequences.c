@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/random.h"
+#include "scene/frame_builder.h"
 
 enum {
     SUB = FRAMES_SUBPIXELS,

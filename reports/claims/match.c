@@ -7,8 +7,6 @@
 #include "base/text.h"
 #include "read/options.h"
 
-/* ---- tests ---- */
-
 /* Texts are compared, or numbers where both are. */
 static bool value_matches(const char *cell, const char *wanted)
 {

@@ -24,8 +24,6 @@ bool culling_is_applied(const fm_method_desc *method)
     return culling_is_map_pass(&method->passes[0]);
 }
 
-/* ---- what can be culled ---- */
-
 static fm_status check_room(const fm_method_desc *method, fm_error *err)
 {
     bool has_room = pass_count(method) + PASSES_ADDED <= FM_MAX_PASSES &&
@@ -63,8 +61,6 @@ fm_status culling_check(const fm_method_desc *method, const fm_settings *setting
                        settings->cull_words);
     return check_room(method, err);
 }
-
-/* ---- the transform ---- */
 
 static bool is_multisampled(const fm_method_desc *method, const char *name, uint32_t k)
 {

@@ -2,7 +2,7 @@
 #ifndef FM_RECORD_POLYGONS_H
 #define FM_RECORD_POLYGONS_H
 
-#include "scene/frames.h"
+#include "scene/frame_builder.h"
 
 /* Floats of a vertex in GL_3D_COLOR_TEXTURE: x, y, z; red, green, blue, alpha; s, t, r, q. */
 enum { POLYGON_FLOATS = 11 };

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "frame_builder.h"
 
 enum { STREAM_MAX_BYTES = 1 << 30 };
 

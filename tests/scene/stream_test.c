@@ -13,6 +13,7 @@
 
 #include "base/text.h"
 #include "record/polygons.h"
+#include "scene/frame_builder.h"
 #include "scene/frame_stream.h"
 #include "simulator/tbr_kit.h"
 

@@ -4,6 +4,7 @@
 
 #include "generators/adversarial.h"
 #include "plugin/plugin.h"
+#include "scene/frame_builder.h"
 #include "simulator/tbr.h"
 
 enum { KIT_MAX_FRAMES = 8 };
