@@ -6,6 +6,7 @@
 #include <float.h>
 #include <locale.h>
 #include <math.h>
+#include <search.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -111,6 +112,27 @@ void text_list_free(fm_text_list *list)
         free(list->items[i]);
     free(list->items);
     *list = (fm_text_list){ 0 };
+}
+
+static int compare_texts(const void *a, const void *b)
+{
+    return strcmp(a, b);
+}
+
+const char *text_shared(const char *text)
+{
+    static void *texts; /* a tree of tsearch(3) */
+    if (*text == '\0')
+        return "";
+    const char *const *found = tfind(text, &texts, compare_texts);
+    if (found != NULL)
+        return *found;
+    char *copy = strdup(text);
+    if (copy == NULL || tsearch(copy, &texts, compare_texts) == NULL) {
+        free(copy);
+        return NULL;
+    }
+    return copy;
 }
 
 /* Reads to the end, so that pipes and /proc files, whose size is not known, work too. */

@@ -36,6 +36,10 @@ bool text_list_has(const fm_text_list *list, const char *text);
 const char *const *text_list_items(const fm_text_list *list);
 void text_list_free(fm_text_list *list);
 
+/* The one copy of the text that the process keeps until it ends: equal texts have equal addresses.
+ * NULL: no memory. For one thread. */
+const char *text_shared(const char *text);
+
 /* A whole file, NUL-terminated, at most limit_bytes. The caller frees *bytes. */
 fm_status text_read_file(char **bytes, size_t *count, const char *path, size_t limit_bytes,
                          fm_error *err);

@@ -20,6 +20,13 @@ static const void *const_field(const fm_settings *settings, const fm_key *key)
     return (const char *)settings + key->offset;
 }
 
+static const char *text_field(const fm_settings *settings, const fm_key *key)
+{
+    const char *text = NULL;
+    memcpy(&text, const_field(settings, key), sizeof text);
+    return text;
+}
+
 void settings_default(fm_settings *settings)
 {
     *settings = (fm_settings){ 0 };
@@ -101,8 +108,7 @@ static fm_status set_enum(fm_settings *settings, const fm_key *key, const char *
 
 static fm_status set_text(fm_settings *settings, const fm_key *key, const char *text, fm_error *err)
 {
-    const size_t length = strlen(text);
-    if (length >= FM_PATH_MAX_BYTES)
+    if (strlen(text) >= FM_PATH_MAX_BYTES)
         return fm_fail(err, FM_INVALID, "%s: longer than %d bytes", key->name,
                        FM_PATH_MAX_BYTES - 1);
     for (const char *c = text; *c != '\0'; c++)
@@ -110,9 +116,10 @@ static fm_status set_text(fm_settings *settings, const fm_key *key, const char *
             return fm_fail(err, FM_INVALID, "%s: control characters", key->name);
     if (!text_is_utf8(text))
         return fm_fail(err, FM_INVALID, "%s: not UTF-8", key->name);
-    /* Nothing of a longer text before stays behind: settings compare as bytes. */
-    memset(field(settings, key), 0, FM_PATH_MAX_BYTES);
-    memcpy(field(settings, key), text, length);
+    const char *shared = text_shared(text);
+    if (shared == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "%s: no memory", key->name);
+    memcpy(field(settings, key), &shared, sizeof shared);
     return FM_OK;
 }
 
@@ -180,7 +187,7 @@ void settings_text(char text[FM_PATH_MAX_BYTES], const fm_settings *settings, co
         strcpy(text, key->values[index]);
         return;
     case FM_KEY_TEXT:
-        memcpy(text, const_field(settings, key), FM_PATH_MAX_BYTES);
+        snprintf(text, FM_PATH_MAX_BYTES, "%s", text_field(settings, key));
         return;
     }
 }
@@ -195,7 +202,7 @@ const char *settings_file_key(const fm_settings *settings)
 const char *settings_file(const fm_settings *settings)
 {
     const char *key = settings_file_key(settings);
-    return key != NULL ? const_field(settings, key_find(key)) : NULL;
+    return key != NULL ? text_field(settings, key_find(key)) : NULL;
 }
 
 bool generator_makes_frames(fm_generator generator)

@@ -122,7 +122,8 @@ typedef enum fm_own_cull { FM_OWN_CULL_ON, FM_OWN_CULL_OFF, FM_OWN_CULL_COUNT } 
 enum { FM_TEXT_MAX = 256 };
 #define FM_NOT_GIVEN UINT32_MAX
 
-/* One value for each key. */
+/* One value for each key. Settings with equal values are equal as bytes, their texts too:
+ * text_shared keeps one copy of each. */
 typedef struct fm_settings {
     /* viewport */
     uint32_t width_px, height_px;
@@ -142,7 +143,7 @@ typedef struct fm_settings {
     uint64_t seed;
 
     /* mesh, and what the generators of triangles share with it */
-    char mesh[FM_PATH_MAX_BYTES];          /* file; relative to the scene file that names it */
+    const char *mesh;                      /* file; relative to the scene file that names it */
     double eye[3], target[3], up[3];       /* eye == target: fitted to the box of the mesh */
     double fov_deg, near_plane, far_plane; /* 0, 0: 0.4 and 1.7 of the box's distance */
     double zoom;                           /* of the fitted camera */
@@ -151,7 +152,7 @@ typedef struct fm_settings {
 
     /* frames: what generators/frame_sequences.h makes of them; adversarial: adversarial.h there;
      * stream: frame_stream.h */
-    char stream[FM_PATH_MAX_BYTES]; /* file; relative to the scene file that names it */
+    const char *stream; /* file; relative to the scene file that names it */
     uint32_t sequence_frames;
     uint32_t backgrounds, sprites, triangles;
     double object_px, depth_complexity, front_to_back;
@@ -161,9 +162,8 @@ typedef struct fm_settings {
     double texture_bytes;
 
     /* method and run */
-    char model[FM_PATH_MAX_BYTES]; /* techniques: "NAME=VALUE ..." of
-                                      simulator/models/parameters.yml */
-    uint32_t k;                    /* 0: the method does not use it */
+    const char *model; /* techniques: "NAME=VALUE ..." of simulator/models/parameters.yml */
+    uint32_t k;        /* 0: the method does not use it */
     fm_lock lock;
     fm_release release;
     fm_buffers buffers;
@@ -188,7 +188,7 @@ typedef enum fm_key_type {
     FM_KEY_REAL,   /* double */
     FM_KEY_VECTOR, /* double[3], "x y z" or a YAML sequence */
     FM_KEY_ENUM,   /* int-sized enum, by the names in `values` */
-    FM_KEY_TEXT,   /* char[FM_PATH_MAX_BYTES] */
+    FM_KEY_TEXT,   /* const char *, of text_shared; shorter than FM_PATH_MAX_BYTES */
 } fm_key_type;
 
 typedef enum fm_key_scope {

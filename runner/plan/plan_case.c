@@ -56,7 +56,7 @@ static void forget_unused_method_keys(fm_settings *settings, const fm_method_des
     if (!has_pixel_pass(method))
         settings->full_screen = FM_FULL_SCREEN_COMPUTE;
     if (method->technique == NULL)
-        memset(settings->model, 0, sizeof settings->model);
+        settings->model = "";
     else
         settings->timers = FM_TIMERS_PASSES;
 }

@@ -136,6 +136,22 @@ static void text_list_holds_copies_and_ends_with_null(void **state)
     text_list_free(&copy);
 }
 
+static void text_shared_keeps_one_copy(void **state)
+{
+    (void)state;
+    char text[] = "a/mesh.obj";
+    const char *first = text_shared(text);
+    assert_string_equal(first, "a/mesh.obj");
+    text[0] = 'b';
+    const char *other = text_shared(text);
+    assert_string_equal(first, "a/mesh.obj");
+    assert_string_equal(other, "b/mesh.obj");
+    text[0] = 'a';
+    assert_ptr_equal(text_shared(text), first);
+    text[0] = '\0';
+    assert_ptr_equal(text_shared(text), text_shared(""));
+}
+
 static void text_nearest_needs_half_of_the_word(void **state)
 {
     (void)state;
@@ -331,6 +347,7 @@ int main(void)
         cmocka_unit_test(text_read_file_refuses_what_is_above_the_limit),
         cmocka_unit_test(text_files_name_the_path_that_fails),
         cmocka_unit_test(text_list_holds_copies_and_ends_with_null),
+        cmocka_unit_test(text_shared_keeps_one_copy),
         cmocka_unit_test(text_nearest_needs_half_of_the_word),
         cmocka_unit_test(text_is_utf8_knows_what_json_refuses),
         cmocka_unit_test(text_make_utf8_replaces_only_bad_bytes),

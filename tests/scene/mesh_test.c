@@ -37,7 +37,7 @@ static fm_settings mesh_settings(const char *path)
         s.eye[i] = s.target[i] = s.instance_offset[i] = 0.0;
     s.up[0] = s.up[2] = 0.0;
     s.up[1] = 1.0;
-    snprintf(s.mesh, sizeof s.mesh, "%s", path);
+    s.mesh = text_shared(path);
     return s;
 }
 
@@ -66,7 +66,7 @@ static fm_scene *create_cube(fm_settings *settings)
 {
     char path[64];
     write_temporary(path, ".obj", cube, sizeof cube - 1);
-    snprintf(settings->mesh, sizeof settings->mesh, "%s", path);
+    settings->mesh = text_shared(path);
     fm_scene *scene = create(settings);
     unlink(path);
     return scene;
