@@ -200,10 +200,9 @@ static void refuse_method(fm_text *why, const fm_case *made, const fm_plan_point
 
 static void remember_mesh(fm_mesh_memo *memo, const char *path)
 {
-    if (strcmp(memo->path, path) == 0)
+    if (memo->path == path)
         return;
-    memo->error = (fm_error){ 0 };
-    memcpy(memo->path, path, sizeof memo->path);
+    *memo = (fm_mesh_memo){ .path = path };
     if (settings_mesh_digest(&memo->digest, path, &memo->error) != FM_OK)
         memo->digest = XXH64(path, strlen(path), 0);
 }

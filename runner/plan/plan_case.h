@@ -7,7 +7,7 @@
 
 /* The digest of the mesh met last: cases of one scene follow one another. */
 typedef struct fm_mesh_memo {
-    char path[FM_PATH_MAX_BYTES];
+    const char *path; /* of text_shared; NULL: none yet */
     uint64_t digest;
     fm_error error; /* status FM_OK: the digest is known */
 } fm_mesh_memo;
