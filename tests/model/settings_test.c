@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "model/feeds.h"
 #include "model/settings.h"
 #include "plan/plan.h"
 #include "scene/scene_file.h"
@@ -348,9 +349,19 @@ static void keys_of_enums_have_a_distinct_name_for_each_value(void **state)
     }
 }
 
+static void feeds_have_names(void **state)
+{
+    (void)state;
+    assert_int_equal(feed_from_name("compute-adjacent"), FM_FEED_COMPUTE_ADJACENT);
+    assert_int_equal(feed_from_name("rastr"), 0);
+    for (uint32_t feed = 1; (feed & FM_FEEDS_ALL) != 0; feed <<= 1)
+        assert_int_equal(feed_from_name(feed_name(feed)), feed);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(feeds_have_names),
         cmocka_unit_test(keys_of_enums_have_a_distinct_name_for_each_value),
         cmocka_unit_test(settings_defaults_are_the_synthetic_scene),
         cmocka_unit_test(keys_have_defaults_that_are_legal),

@@ -12,7 +12,6 @@
 #include "base/text.h"
 #include "devices.h"
 #include "fragmark/technique.h"
-#include "model/feeds.h"
 #include "plan/plan.h"
 
 static const fm_method_desc kb_method = {
@@ -456,23 +455,17 @@ static void plan_keeps_keys_from_scenes_that_do_not_read_them(void **state)
     fixture with;
     spec_folder at;
     fixture_create(&with);
-    spec_create(&at, "scenes: [layers, s.yml]\nmethods: kb\npixel_density: [0.5, 1]\nr: [2, 4]\n",
+    spec_create(&at,
+                "scenes: [layers, s.yml]\nmethods: kb\npixel_density: [0.5, 1]\nr: [2, 4]\n"
+                "mesh: [spec.yml, none.obj, s.yml]\n",
                 "generator: mesh\nmesh: spec.yml\n"); /* any file has a digest */
-    expect(&with, &(fm_plan_request){ .spec = at.spec }, 5);
+    expect(&with, &(fm_plan_request){ .spec = at.spec }, 7);
     assert_int_equal(with.plan.cases[4].settings.n, 0);
-    assert_null(with.plan.cases[4].skip);
+    for (size_t i = 4; i < 7; i++) /* only the case of the missing file is skipped */
+        assert_int_equal(with.plan.cases[i].skip != NULL, i == 5);
     assert_string_equal(with.plan.cases[4].settings.mesh, at.spec);
     spec_destroy(&at);
     plan_free(&with.plan);
-}
-
-static void feeds_have_names(void **state)
-{
-    (void)state;
-    assert_int_equal(feed_from_name("compute-adjacent"), FM_FEED_COMPUTE_ADJACENT);
-    assert_int_equal(feed_from_name("rastr"), 0);
-    for (uint32_t feed = 1; (feed & FM_FEEDS_ALL) != 0; feed <<= 1)
-        assert_int_equal(feed_from_name(feed_name(feed)), feed);
 }
 
 int main(void)
@@ -494,7 +487,6 @@ int main(void)
         cmocka_unit_test(plan_reads_specs_and_lets_the_command_line_win),
         cmocka_unit_test(plan_refuses_specs_with_the_line),
         cmocka_unit_test(plan_keeps_keys_from_scenes_that_do_not_read_them),
-        cmocka_unit_test(feeds_have_names),
     };
     return cmocka_run_group_tests_name("plan", tests, NULL, NULL);
 }
