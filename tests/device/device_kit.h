@@ -13,7 +13,7 @@
 
 #include "devices.h"
 
-enum { SIDE_PX = 16, PIXELS = SIDE_PX * SIDE_PX };
+#include "screen_kit.h"
 
 /* Every test runs on a fresh device of each kind, *state, and once under Vulkan's validation, which
  * must find nothing wrong; without timers there, so that barriers come from accesses alone. */
@@ -30,17 +30,7 @@ enum { SIDE_PX = 16, PIXELS = SIDE_PX * SIDE_PX };
 #test " [osmesa]", test, open_osmesa, close_opened, NULL                                   \
     }
 
-/* A triangle over the whole screen for each instance, the later the nearer: 0.75, 0.5, ... */
-static const char stacked_vertex[] __attribute__((unused)) =
-    "#version 450\n"
-    "layout(location = 0) flat out int instance;\n"
-    "void main() {\n"
-    "  vec2 corner = vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1);\n"
-    "  instance = gl_InstanceIndex;\n"
-    "  gl_Position = vec4(corner * 4.0 - 1.0, 0.75 - 0.25 * float(instance), 1.0);\n"
-    "}\n";
-
-/* Its fragment shader for a target of one uint: 10, 11, ... */
+/* The fragment shader of stacked_vertex for a target of one uint: 10, 11, ... */
 static const char instance_fragment[] __attribute__((unused)) =
     "#version 450\n"
     "layout(location = 0) flat in int instance;\n"
@@ -158,22 +148,6 @@ static inline fm_pipeline *make_pipeline(fm_device *device, fm_pipeline_desc des
     if (device->ops->pipeline_create(&pipeline, device, &desc, &err) != FM_OK)
         fail_msg("%s", err.message);
     return pipeline;
-}
-
-static inline void begin(fm_device *device)
-{
-    fm_error err = { .message = "" };
-    if (device->ops->frame_begin(device, &err) != FM_OK)
-        fail_msg("%s", err.message);
-}
-
-static inline fm_frame_times end(fm_device *device)
-{
-    fm_frame_times times = { .wall_ns = 0 };
-    fm_error err = { .message = "" };
-    if (device->ops->frame_end(device, &times, &err) != FM_OK)
-        fail_msg("%s", err.message);
-    return times;
 }
 
 /* Draws `instances` times, three vertices unless told, over the whole screen. */

@@ -11,17 +11,7 @@
 
 #include "device/osmesa/osmesa.h"
 
-enum { SIDE_PX = 16, PIXELS = SIDE_PX * SIDE_PX };
-
-/* A triangle over the whole screen for each instance, the later the nearer: 0.75, 0.5, ... */
-static const char vertex_source[] __attribute__((unused)) =
-    "#version 450\n"
-    "layout(location = 0) flat out int instance;\n"
-    "void main() {\n"
-    "  vec2 corner = vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1);\n"
-    "  instance = gl_InstanceIndex;\n"
-    "  gl_Position = vec4(corner * 4.0 - 1.0, 0.75 - 0.25 * float(instance), 1.0);\n"
-    "}\n";
+#include "screen_kit.h"
 
 static inline fm_device *open_osmesa(const fm_device_desc *desc)
 {
@@ -62,26 +52,10 @@ static inline fm_pipeline *make_pipeline(fm_device *device, fm_pipeline_desc des
     fm_error err = { .message = "" };
     desc.name = "test";
     if (desc.fragment != NULL)
-        desc.vertex = desc.vertex != NULL ? desc.vertex : vertex_source;
+        desc.vertex = desc.vertex != NULL ? desc.vertex : stacked_vertex;
     if (device->ops->pipeline_create(&pipeline, device, &desc, &err) != FM_OK)
         fail_msg("%s", err.message);
     return pipeline;
-}
-
-static inline void begin(fm_device *device)
-{
-    fm_error err = { .message = "" };
-    if (device->ops->frame_begin(device, &err) != FM_OK)
-        fail_msg("%s", err.message);
-}
-
-static inline fm_frame_times end(fm_device *device)
-{
-    fm_frame_times times = { .wall_ns = 0 };
-    fm_error err = { .message = "" };
-    if (device->ops->frame_end(device, &times, &err) != FM_OK)
-        fail_msg("%s", err.message);
-    return times;
 }
 
 static inline void draw(fm_device *device, const fm_draw *command)

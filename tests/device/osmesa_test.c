@@ -104,7 +104,7 @@ static void osmesa_refuses_a_shader_that_does_not_link(void **state)
     (void)state;
     fm_error err = { .message = "" };
     const fm_pipeline_desc desc = { .name = "kb: store",
-                                    .vertex = vertex_source,
+                                    .vertex = stacked_vertex,
                                     .fragment = "#version 450\n"
                                                 "layout(location = 0) in vec4 colour;\n"
                                                 "layout(location = 0) out vec4 target;\n"
