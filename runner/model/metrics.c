@@ -52,6 +52,8 @@ const fm_metric_info fm_metrics[FM_METRIC_COUNT] = {
         "fragments that found no room, or ran out of tries for a lock", CASE, LESS, MEASURED },
     [FM_METRIC_NONEMPTY_PIXELS] = { "nonempty_pixels", "covered pixels", "",
         "pixels with at least one fragment", CASE },
+    [FM_METRIC_TRUTH_DIGEST] = { "truth_digest", "truth", "",
+        "hash of all fragments of the scene in their order, 16 hex digits: equal for equal truths", CASE },
     [FM_METRIC_DISCARDED_SHARE] = { "discarded_share", "discarded", "",
         "of the fragments beyond the k nearest, the share that was not stored", CASE, MORE, MEASURED },
     [FM_METRIC_TAKEN_PER_KEPT] = { "taken_per_kept", "taken per kept", "",

@@ -285,6 +285,15 @@ fm_status settings_finish(fm_settings *settings, fm_error *err)
     return FM_OK;
 }
 
+void settings_for_truth(fm_settings *truth, const fm_settings *settings)
+{
+    *truth = *settings;
+    for (size_t i = 0; i < fm_key_count; i++)
+        if (fm_keys[i].scope == FM_SCOPE_CASE)
+            settings_set(truth, &fm_keys[i], fm_keys[i].fallback, NULL);
+    truth->r = 0; /* n is known, and r would contradict the default k */
+}
+
 fm_status settings_mesh_digest(uint64_t *digest, const char *path, fm_error *err)
 {
     char block[READ_BYTES];

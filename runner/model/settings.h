@@ -250,6 +250,9 @@ bool settings_key_matters(const fm_settings *settings, const fm_key *key);
  * mesh scene without a mesh, clip planes out of order. Finished settings, also with k then set to 0
  * (not used), pass again unchanged, so that they can travel as texts. */
 fm_status settings_finish(fm_settings *settings, fm_error *err);
+/* What a truth is made with: the same scene, and every key of a case at its default. `settings` are
+ * finished, and so is *truth. */
+void settings_for_truth(fm_settings *truth, const fm_settings *settings);
 /* Raise it when the generator's code makes something else of the same settings: the scene's hash
  * changes with it, so that no truth and no result of before is taken for the new scene's. */
 uint32_t generator_version(fm_generator generator);

@@ -7,6 +7,7 @@
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <xxhash.h>
 
 #include "truth_file.h"
 
@@ -167,6 +168,19 @@ void truth_forget(const fm_truth *truth, uint64_t first, uint64_t last)
      * from the file. */
     if (truth->map != NULL && from < to)
         madvise((char *)truth->map + (from - (uintptr_t)truth->map), to - from, MADV_DONTNEED);
+}
+
+uint64_t truth_digest(const fm_truth *truth)
+{
+    enum { BLOCK_FRAGMENTS = 1 << 20 };
+    const uint64_t pixels = (uint64_t)truth->width_px * truth->height_px;
+    uint64_t digest = XXH64(truth->offsets, (pixels + 1) * sizeof truth->offsets[0], 0);
+    for (uint64_t i = 0; i < truth->fragment_count; i += BLOCK_FRAGMENTS) {
+        const uint64_t left = truth->fragment_count - i;
+        const uint64_t count = left < BLOCK_FRAGMENTS ? left : BLOCK_FRAGMENTS;
+        digest = XXH64(&truth->fragments[i], count * sizeof truth->fragments[0], digest);
+    }
+    return digest;
 }
 
 static uint64_t kept_of(const fm_truth *truth, uint64_t pixel, uint32_t k)

@@ -32,6 +32,9 @@ void truth_close(fm_truth *truth);
  * a truth may be larger than memory. */
 void truth_forget(const fm_truth *truth, uint64_t first, uint64_t last);
 
+/* xxhash64 of which fragments each pixel has, in their order: equal for equal truths. */
+uint64_t truth_digest(const fm_truth *truth);
+
 /* Sum over pixels of min(f, k). */
 uint64_t truth_kept(const fm_truth *truth, uint32_t k);
 

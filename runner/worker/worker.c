@@ -192,9 +192,13 @@ static fm_status frames_job(launch_job *job)
 static fm_status truth_job(launch_job *job)
 {
     const char *path = job->request->truth;
+    fm_status status = not_the_plugins(settings_finish(&job->settings, &job->error));
+    if (status != FM_OK)
+        return status;
+    settings_for_truth(&job->settings, &job->settings);
     if (has_frames(job))
         return frames_job(job);
-    fm_status status = read_feed(job);
+    status = read_feed(job);
     if (status == FM_OK)
         status = open_device(job);
     if (status == FM_OK)

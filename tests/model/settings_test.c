@@ -358,6 +358,31 @@ static void feeds_have_names(void **state)
         assert_int_equal(feed_from_name(feed_name(feed)), feed);
 }
 
+static void settings_for_truth_keep_the_scene_and_no_key_of_a_case(void **state)
+{
+    (void)state;
+    char before[17], after[17];
+    fm_settings settings = defaults(), truth;
+    set(&settings, "r", "3");
+    set(&settings, "k", "5");
+    set(&settings, "pool", "per-frame");
+    set(&settings, "culling", "occupancy");
+    assert_int_equal(settings_finish(&settings, NULL), FM_OK);
+    settings_for_truth(&truth, &settings);
+    assert_int_equal(settings_finish(&truth, NULL), FM_OK);
+    settings_scene_hash(before, &settings);
+    settings_scene_hash(after, &truth);
+    assert_string_equal(before, after);
+    assert_int_equal(truth.n, 15);
+    for (size_t i = 0; i < fm_key_count; i++) {
+        char value[FM_PATH_MAX_BYTES];
+        if (fm_keys[i].scope != FM_SCOPE_CASE)
+            continue;
+        settings_text(value, &truth, &fm_keys[i]);
+        assert_string_equal(value, fm_keys[i].fallback);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -381,6 +406,7 @@ int main(void)
         cmocka_unit_test(scene_file_read_sets_keys_over_defaults),
         cmocka_unit_test(scene_file_read_refuses_with_line_and_nearest),
         cmocka_unit_test(scene_files_of_the_project_are_legal),
+        cmocka_unit_test(settings_for_truth_keep_the_scene_and_no_key_of_a_case),
     };
     return cmocka_run_group_tests_name("settings", tests, NULL, NULL);
 }
