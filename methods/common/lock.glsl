@@ -6,6 +6,18 @@
 // FM_LOCK_BARRIERS: where the hardware needs memory barriers they stand outside the branch, which is
 // right and fastest on such devices; Mesa's software rasterisers run without (and miscompile
 // barriers that invocations pass a different number of times).
+#if FM_EXCLUSIVE && FM_LOOP_LIMIT > 0
+// A lock's owner may lose its processor for many milliseconds. The driver counts iterations of loops, so
+// waiting that long takes tries that are slow without a loop: 64 atomics, which change nothing.
+#define FM_WAIT_ONCE atomicOr(fm_locks[lock], 0u);
+#define FM_WAIT_FOUR FM_WAIT_ONCE FM_WAIT_ONCE FM_WAIT_ONCE FM_WAIT_ONCE
+#define FM_WAIT_16   FM_WAIT_FOUR FM_WAIT_FOUR FM_WAIT_FOUR FM_WAIT_FOUR
+void fm_wait(uint lock)
+{
+    FM_WAIT_16 FM_WAIT_16 FM_WAIT_16 FM_WAIT_16
+}
+#endif
+
 void fm_take(uvec2 pixel, float depth, uint colour)
 {
 #if FM_EXCLUSIVE
@@ -33,6 +45,10 @@ void fm_take(uvec2 pixel, float depth, uint colour)
 #endif
             is_done = true;
         }
+#if FM_LOOP_LIMIT > 0
+        if (!is_mine && tries > 64u)
+            fm_wait(lock);
+#endif
     }
     if (is_done)
         fm_locked();
