@@ -83,12 +83,16 @@ const fm_metric_info fm_metrics[FM_METRIC_COUNT] = {
         LESS },
     [FM_METRIC_WRONG_PIXELS] = { "wrong_pixels", "wrong pixels", "",
         "pixels with a missing, extra or misordered fragment", CASE, LESS },
+    [FM_METRIC_TIED_PIXELS] = { "tied_pixels", "tied pixels", "",
+        "pixels where wanted fragments of equal depth differ in colour: truth allows every order of them, "
+        "and an image's error is its distance to what these orders reach", CASE },
     [FM_METRIC_SELF_MAX_ABS] = { "self_max_abs", "off its fragments", "",
         "the largest distance, of any channel, of the timed image from the captured fragments composited "
-        "in double precision; pixels whose depths tie are left out", CASE, LESS },
+        "in double precision, in any order that ties allow", CASE, LESS },
     [FM_METRIC_RMSE] = { "rmse", "RMSE", "",
         "root mean squared error over all pixels of the viewport and four channels, linear and "
-        "premultiplied, against the picture of the fragments that the method is to keep", CASE, LESS },
+        "premultiplied, against the picture of the fragments that the method is to keep; where depths "
+        "tie, against the nearest of all pictures that truth allows", CASE, LESS },
     [FM_METRIC_PSNR_DB] = { "psnr_db", "PSNR", "dB", "-20 log10 of rmse; inf for equal images", CASE,
         MORE },
     [FM_METRIC_MAX_ABS] = { "max_abs", "largest error", "",

@@ -53,6 +53,7 @@ typedef enum fm_metric {
     FM_METRIC_DEPTH_ULP_MAX,
     FM_METRIC_WRONG_PIXELS,
     /* how wrong its image is */
+    FM_METRIC_TIED_PIXELS,
     FM_METRIC_SELF_MAX_ABS,
     FM_METRIC_RMSE,
     FM_METRIC_PSNR_DB,

@@ -207,20 +207,3 @@ void composite_pixel(double rgba[4], const fm_fragment *fragments, uint64_t coun
             rgba[channel] += (fragments[i].colour >> (8 * channel) & 0xFFu) / 255.0 * through;
     }
 }
-
-fm_status truth_composite(fm_image **image, const fm_truth *truth, uint32_t k, fm_error *err)
-{
-    const uint64_t pixels = (uint64_t)truth->width_px * truth->height_px;
-    fm_status status = image_create(image, truth->width_px, truth->height_px, err);
-    if (status != FM_OK)
-        return status;
-    for (uint64_t i = 0; i < pixels; i++) {
-        double rgba[4];
-        composite_pixel(rgba, &truth->fragments[truth->offsets[i]], kept_of(truth, i, k));
-        for (int channel = 0; channel < 4; channel++)
-            (*image)->rgba[4 * i + (uint64_t)channel] = (float)rgba[channel];
-        if ((i + 1) % truth->width_px == 0)
-            truth_forget(truth, i + 1 - truth->width_px, i + 1);
-    }
-    return FM_OK;
-}

@@ -38,9 +38,7 @@ uint64_t truth_digest(const fm_truth *truth);
 /* Sum over pixels of min(f, k). */
 uint64_t truth_kept(const fm_truth *truth, uint32_t k);
 
-/* Front to back in double precision: the k nearest, or all with k = 0. The image is created. */
-fm_status truth_composite(fm_image **image, const fm_truth *truth, uint32_t k, fm_error *err);
-/* The same for one pixel's list, already in order. */
+/* One pixel's list, already in order, front to back in double precision. */
 void composite_pixel(double rgba[4], const fm_fragment *fragments, uint64_t count);
 
 #endif

@@ -122,6 +122,7 @@ static void add_checked(json_t *metrics, const fm_measurement *m, const fm_truth
     answer_set_count(metrics, FM_METRIC_WRONG_PIXELS, m->check.wrong_pixels);
     answer_set_count(metrics, FM_METRIC_NONEMPTY_PIXELS, truth->nonempty_pixels);
     answer_set_hash(metrics, FM_METRIC_TRUTH_DIGEST, truth_digest(truth));
+    answer_set_count(metrics, FM_METRIC_TIED_PIXELS, m->tied_pixels);
     answer_set_number(metrics, FM_METRIC_SELF_MAX_ABS, m->self_max_abs);
     answer_set_number(metrics, FM_METRIC_RMSE, m->error.rmse);
     answer_set_number(metrics, FM_METRIC_PSNR_DB, m->error.psnr_db);

@@ -38,12 +38,14 @@ typedef struct fm_measurement {
     bool is_checked;
     fm_check check;
     uint64_t culled, locked, arrived; /* as of a frame: fm_frame_result */
-    double self_max_abs;    /* timed image against its own fragments composited in double; pixels
-                               where a tie leaves their order open are left out */
+    /* Timed image against its own fragments composited in double; where a tie leaves their order
+     * open, against what that allows (truth/reference.h), as in all that follows. */
+    double self_max_abs;
+    uint64_t tied_pixels;   /* where such ties are among the wanted fragments */
     fm_image_error error;   /* against the picture of the fragments that it was to hand over */
     double truncation_rmse; /* of that picture against the picture of all fragments */
     double total_rmse;      /* of the image against the picture of all fragments */
-    fm_image *truth_image;  /* of the wanted fragments; owned */
+    fm_image *truth_image;  /* the nearest that truth allows; owned */
 } fm_measurement;
 
 typedef struct fm_measure_desc {

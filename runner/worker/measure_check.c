@@ -5,6 +5,7 @@
 
 #include "measure_internal.h"
 #include "plugin/culling_apply.h"
+#include "truth/reference.h"
 
 enum {
     FORGET_PIXELS = 4096, /* of how many checked pixels the truth stays in memory */
@@ -23,6 +24,7 @@ typedef struct checking {
     fm_fragment *fragments; /* [band_pixels][slots], as captured */
     uint32_t (*counts)[2];  /* [band_pixels]: from the front, from the back */
     fm_fragment *pixel;     /* [slots]: one pixel's, in order */
+    fm_ties *ties;
 } checking;
 
 /* Front ranks fill a pixel's slots from the start, back ranks from the end. */
@@ -40,27 +42,34 @@ static uint32_t gather(checking *check, uint32_t local)
     return front + back;
 }
 
-static void check_image(checking *check, uint64_t pixel, uint32_t count)
+static void check_image(checking *check, uint64_t pixel, const fm_range *range)
 {
-    double rgba[4];
-    const float *timed = &check->measurement->image->rgba[4 * pixel];
-    composite_pixel(rgba, check->pixel, count);
-    for (int channel = 0; channel < 4; channel++) {
-        const double apart = fabs(rgba[channel] - (double)timed[channel]);
-        if (!(apart <= check->measurement->self_max_abs))
-            check->measurement->self_max_abs = apart;
-    }
+    const double apart = range_distance(range, &check->measurement->image->rgba[4 * pixel]);
+    check->measurement->self_max_abs = fmax(apart, check->measurement->self_max_abs);
 }
 
-/* Fragments of equal depth and different colour among the first `wanted`, or at their end: which
- * comes first, or at all, is open, and the timed frame may choose otherwise than the captured one.
- */
-static bool has_open_tie(const fm_fragment *truth, uint32_t count, uint32_t wanted)
+/* All of a pixel: what was captured, and what the timed frame drew there. Where ties leave the
+ * order open the timed frame may choose otherwise than the captured one: any picture will do that
+ * truth allows or, of a wrong pixel, that its own fragments do. */
+static void check_one(checking *check, uint64_t pixel, uint32_t local)
 {
-    for (uint32_t i = 1; i < count && i <= wanted; i++)
-        if (truth[i].depth <= truth[i - 1].depth && truth[i].colour != truth[i - 1].colour)
-            return true;
-    return false;
+    fm_check *sums = &check->measurement->check;
+    const uint64_t first = check->truth->offsets[pixel], wrong_before = sums->wrong_pixels;
+    const uint32_t all = (uint32_t)(check->truth->offsets[pixel + 1] - first);
+    const uint32_t wanted = check->wanted < all ? check->wanted : all;
+    const uint32_t count = gather(check, local);
+    const fm_fragment *truth = &check->truth->fragments[first];
+    const bool is_open = ties_are_open(truth, all, wanted);
+    fm_range range;
+    composite_pixel(range.low, check->pixel, count);
+    memcpy(range.high, range.low, sizeof range.high);
+    check_pixel(sums, check->pixel, count, truth, all, wanted); /* sorts them */
+    if (is_open && sums->wrong_pixels == wrong_before)
+        ties_range(&range, check->ties, truth, all, wanted);
+    else if (is_open)
+        ties_range(&range, check->ties, check->pixel, count, count);
+    check_image(check, pixel, &range);
+    check->measurement->tied_pixels += is_open;
 }
 
 static fm_status check_band(checking *check, const fm_band *band, fm_error *err)
@@ -75,14 +84,7 @@ static fm_status check_band(checking *check, const fm_band *band, fm_error *err)
                                   check->counts, (uint64_t)band->pixels * 8, err);
     for (uint32_t i = 0; i < band->pixels && status == FM_OK; i++) {
         const uint64_t pixel = (uint64_t)band->first + i;
-        const uint64_t first = check->truth->offsets[pixel];
-        const uint32_t all = (uint32_t)(check->truth->offsets[pixel + 1] - first);
-        const uint32_t count = gather(check, i);
-        const fm_fragment *truth = &check->truth->fragments[first];
-        if (!has_open_tie(truth, all, check->wanted))
-            check_image(check, pixel, count);
-        check_pixel(&check->measurement->check, check->pixel, count, truth, all,
-                    check->wanted < all ? check->wanted : all);
+        check_one(check, pixel, i);
         if (i % FORGET_PIXELS == FORGET_PIXELS - 1 || i + 1 == band->pixels)
             truth_forget(check->truth, pixel - i % FORGET_PIXELS, pixel + 1);
     }
@@ -127,6 +129,10 @@ static fm_status create_checking(checking *check, const fm_measure_desc *desc, f
     check->pixel = malloc(check->slots * sizeof check->pixel[0]);
     if (check->fragments == NULL || check->counts == NULL || check->pixel == NULL)
         return fm_fail(err, FM_NO_MEMORY, "checking %u fragments a pixel", check->slots);
+    const fm_status status =
+        ties_create(&check->ties, truth->n > check->slots ? truth->n : check->slots, err);
+    if (status != FM_OK)
+        return status;
     return stage_create_capture(check->stage, check->band_pixels, check->slots, err);
 }
 
@@ -155,28 +161,25 @@ fm_status measure_check_fragments(fm_measurement *measurement, const fm_measure_
     free(check.fragments);
     free(check.counts);
     free(check.pixel);
+    ties_destroy(check.ties);
     return status;
 }
 
 fm_status measure_check_images(fm_measurement *measurement, const fm_measure_desc *desc,
                                fm_error *err)
 {
-    const uint32_t wanted = measure_k(measurement, desc);
-    fm_image *all = NULL;
-    fm_image_error apart;
-    fm_status status = truth_composite(&measurement->truth_image, desc->truth,
-                                       wanted == UINT32_MAX ? 0 : wanted, err);
+    fm_reference reference;
+    fm_image_error total = { .rmse = NAN };
+    fm_status status = reference_create(&reference, desc->truth, measure_k(measurement, desc),
+                                        measurement->image, err);
     if (status == FM_OK)
-        status = truth_composite(&all, desc->truth, 0, err);
+        status = image_compare(&measurement->error, measurement->image, reference.wanted, err);
     if (status == FM_OK)
-        status =
-            image_compare(&measurement->error, measurement->image, measurement->truth_image, err);
-    if (status == FM_OK)
-        status = image_compare(&apart, measurement->truth_image, all, err);
-    measurement->truncation_rmse = status == FM_OK ? apart.rmse : NAN;
-    if (status == FM_OK)
-        status = image_compare(&apart, measurement->image, all, err);
-    measurement->total_rmse = status == FM_OK ? apart.rmse : NAN;
-    image_destroy(all);
+        status = image_compare(&total, measurement->image, reference.all, err);
+    measurement->truncation_rmse = reference.truncation_rmse;
+    measurement->total_rmse = total.rmse;
+    measurement->truth_image = reference.wanted;
+    reference.wanted = NULL;
+    reference_free(&reference);
     return status;
 }

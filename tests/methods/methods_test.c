@@ -111,8 +111,7 @@ static void expect_image(const fm_image *image, const hand_scene *hand, uint32_t
     }
 }
 
-static void expect_exact(const fm_measurement *m, bool any_ties, const char *where,
-                         const char *scene)
+static void expect_exact(const fm_measurement *m, const char *where, const char *scene)
 {
     const fm_check *check = &m->check;
     const bool holds = check->missing + check->extra + check->misordered + m->lost == 0;
@@ -120,10 +119,11 @@ static void expect_exact(const fm_measurement *m, bool any_ties, const char *whe
         fail_msg("%s: %s: missing %u, extra %u, misordered %u, lost %u in %u pixels", where, scene,
                  (unsigned)check->missing, (unsigned)check->extra, (unsigned)check->misordered,
                  (unsigned)m->lost, (unsigned)check->wrong_pixels);
-    /* Of equal depths either may come first, and another frame may decide otherwise: the timed
-     * image and the captured fragments then need not agree. */
-    if (!any_ties && !(m->self_max_abs <= image_tolerance))
+    if (!(m->self_max_abs <= image_tolerance))
         fail_msg("%s: %s: the image is %.3g from its fragments", where, scene, m->self_max_abs);
+    if (!(m->error.max_abs <= image_tolerance))
+        fail_msg("%s: %s: the image is %.3g from what truth allows", where, scene,
+                 m->error.max_abs);
 }
 
 /* Which methods a scene meets, and on which feeds: compiling takes the time. */
@@ -169,7 +169,7 @@ static void check_by_hand(kit_scene *scene, const fm_method_desc *method, const 
     char where[256];
     kit_tell(where, way);
     if (kit_measure(&m, scene, way)) {
-        expect_exact(&m, false, where, hand->name);
+        expect_exact(&m, where, hand->name);
         expect_image(m.image, hand, measure_wanted(method, strcmp(way->texts, "k=1") == 0 ? 1 : 2),
                      where);
     }
@@ -222,7 +222,7 @@ static void check_depth_one(kit_scene *scene, const fm_method_desc *method, cons
             assert_int_equal(m.check.missing, HAND_PIXELS - behind);
             m.check.missing = 0;
         }
-        expect_exact(&m, false, where, depth_one.name);
+        expect_exact(&m, where, depth_one.name);
     }
     measurement_free(&m);
 }
@@ -291,7 +291,7 @@ static void check_random(kit_scene *scene, const fm_method_desc *method, const k
     (void)method;
     kit_tell(where, way);
     if (kit_measure(&m, scene, way))
-        expect_exact(&m, kit_has_ties(scene->truth), where, texts);
+        expect_exact(&m, where, texts);
     measurement_free(&m);
 }
 
@@ -342,7 +342,7 @@ static void expect_as_default(kit_scene *scene, const fm_method_desc *method, ui
     if (kit_measure(&m, scene, &way)) {
         /* A value 'published' is there for its errors: the image may stay right, depths not. */
         if (kit_is_right(method, false) && strstr(texts, "=published") == NULL)
-            expect_exact(&m, false, where, OPTIONS_SCENE);
+            expect_exact(&m, where, OPTIONS_SCENE);
         /* Where a method chooses its k, its options say how much is wanted at all. */
         if (method->k_total == NULL &&
             (method->family != FM_FAMILY_CONTROL || (method->traits & FM_TRAIT_EXACT) != 0))

@@ -80,7 +80,7 @@ static fm_status try_again_if_lossy(fm_measurement *m, kit_scene *scene, const k
 }
 
 /* Empty: right, or not supported; else what is wrong. */
-static void measure_one(char wrong[600], kit_scene *scene, const kit_way *way, bool any_ties)
+static void measure_one(char wrong[600], kit_scene *scene, const kit_way *way)
 {
     fm_measurement m;
     fm_error err = { .message = "" };
@@ -93,9 +93,10 @@ static void measure_one(char wrong[600], kit_scene *scene, const kit_way *way, b
         snprintf(wrong, 600, "missing %u, extra %u, misordered %u, lost %u in %u pixels",
                  (unsigned)check->missing, (unsigned)check->extra, (unsigned)check->misordered,
                  (unsigned)m.lost, (unsigned)check->wrong_pixels);
-    else if (status == FM_OK && !any_ties &&
-             !(m.self_max_abs <= measure_image_tolerance(scene->truth->n)))
+    else if (status == FM_OK && !(m.self_max_abs <= measure_image_tolerance(scene->truth->n)))
         snprintf(wrong, 600, "the image is %.3g from its fragments", m.self_max_abs);
+    else if (status == FM_OK && !(m.error.max_abs <= measure_image_tolerance(scene->truth->n)))
+        snprintf(wrong, 600, "the image is %.3g from what truth allows", m.error.max_abs);
     else if (status == FM_OK && m.bytes_allocated != m.bytes_predicted)
         snprintf(wrong, 600, "%llu bytes allocated, %llu predicted",
                  (unsigned long long)m.bytes_allocated, (unsigned long long)m.bytes_predicted);
@@ -117,7 +118,7 @@ static void measure_all(outcomes *seen, kit_scene *scene, const random_scene *fr
             const kit_way way = { .method = method->id, .feed = feed, .texts = from->k };
             if ((kit_feeds(method) & feed) == 0 || !kit_is_right(method, any_ties))
                 continue;
-            measure_one(wrong, scene, &way, any_ties);
+            measure_one(wrong, scene, &way);
             seen->measured++;
             if (wrong[0] == '\0' || seen->failed++ >= FAILURES_SHOWN)
                 continue;

@@ -120,17 +120,12 @@ static void forgotten_fragments_come_back(void **state)
 {
     scene_kit kit;
     kit_scene scene;
-    fm_image *before, *after;
-    fm_error err = { .message = "" };
     kit_open(&kit, device_of(state));
     kit_scene_open(&scene, &kit, SMALL "n=64");
-    assert_int_equal(truth_composite(&before, scene.truth, 0, &err), FM_OK);
+    const uint64_t before = truth_digest(scene.truth);
     truth_forget(scene.truth, 0, 37ull * 23);
     truth_forget(scene.truth, 100, 101);
-    assert_int_equal(truth_composite(&after, scene.truth, 0, &err), FM_OK);
-    assert_memory_equal(before->rgba, after->rgba, 37 * 23 * 4 * sizeof(float));
-    image_destroy(before);
-    image_destroy(after);
+    assert_true(truth_digest(scene.truth) == before);
     kit_scene_close(&scene);
     kit_close(&kit);
 }

@@ -1,0 +1,140 @@
+#include "reference.h"
+
+#include <math.h>
+
+/* A pass over all pixels. */
+typedef struct pixel_walk {
+    const fm_truth *truth;
+    fm_ties *ties;
+    uint32_t wanted;
+} pixel_walk;
+
+/* The range of a pixel's first `wanted` fragments: a point, where their order is not open. */
+static void find_range(fm_range *range, const pixel_walk *walk, uint64_t pixel, uint32_t wanted)
+{
+    const fm_truth *truth = walk->truth;
+    const fm_fragment *fragments = &truth->fragments[truth->offsets[pixel]];
+    const uint32_t count = (uint32_t)(truth->offsets[pixel + 1] - truth->offsets[pixel]);
+    if (ties_are_open(fragments, count, wanted)) {
+        ties_range(range, walk->ties, fragments, count, wanted);
+        return;
+    }
+    composite_pixel(range->low, fragments, wanted < count ? wanted : count);
+    for (int c = 0; c < 4; c++)
+        range->high[c] = range->low[c];
+}
+
+/* Rows of truth are given back when they are done with. */
+static void forget_row(const pixel_walk *walk, uint64_t pixel)
+{
+    const uint32_t width = walk->truth->width_px;
+    if ((pixel + 1) % width == 0)
+        truth_forget(walk->truth, pixel + 1 - width, pixel + 1);
+}
+
+static fm_status begin(pixel_walk *walk, const fm_truth *truth, uint32_t wanted, fm_error *err)
+{
+    *walk = (pixel_walk){ .truth = truth, .wanted = wanted };
+    return ties_create(&walk->ties, truth->n, err);
+}
+
+double range_distance(const fm_range *range, const float rgba[4])
+{
+    double largest = 0;
+    for (int c = 0; c < 4; c++) {
+        const double value = (double)rgba[c];
+        if (!isfinite(value))
+            return INFINITY;
+        largest = fmax(largest, fmax(range->low[c] - value, value - range->high[c]));
+    }
+    return largest;
+}
+
+static void set_nearest(float *nearest, const fm_range *range, const float *rgba)
+{
+    for (int c = 0; c < 4; c++)
+        nearest[c] = (float)fmin(fmax((double)rgba[c], range->low[c]), range->high[c]);
+}
+
+/* Squared distance of the first `wanted` from all, in truth's order. */
+static double truncation(const pixel_walk *walk, uint64_t pixel)
+{
+    const fm_truth *truth = walk->truth;
+    const uint64_t first = truth->offsets[pixel], count = truth->offsets[pixel + 1] - first;
+    double kept[4], all[4], sum = 0;
+    if (count <= walk->wanted)
+        return 0;
+    composite_pixel(kept, &truth->fragments[first], walk->wanted);
+    composite_pixel(all, &truth->fragments[first], count);
+    for (int c = 0; c < 4; c++)
+        sum += (kept[c] - all[c]) * (kept[c] - all[c]);
+    return sum;
+}
+
+fm_status reference_create(fm_reference *reference, const fm_truth *truth, uint32_t wanted,
+                           const fm_image *image, fm_error *err)
+{
+    const uint64_t pixels = (uint64_t)truth->width_px * truth->height_px;
+    pixel_walk walk;
+    double sum = 0;
+    *reference = (fm_reference){ 0 };
+    if (image->width_px != truth->width_px || image->height_px != truth->height_px)
+        return fm_fail(err, FM_INVALID, "an image of %u x %u px, and a truth of %u x %u px",
+                       image->width_px, image->height_px, truth->width_px, truth->height_px);
+    fm_status status = begin(&walk, truth, wanted, err);
+    if (status == FM_OK)
+        status = image_create(&reference->wanted, truth->width_px, truth->height_px, err);
+    if (status == FM_OK)
+        status = image_create(&reference->all, truth->width_px, truth->height_px, err);
+    for (uint64_t i = 0; i < pixels && status == FM_OK; i++) {
+        fm_range range;
+        find_range(&range, &walk, i, wanted);
+        set_nearest(&reference->wanted->rgba[4 * i], &range, &image->rgba[4 * i]);
+        if (truth->offsets[i + 1] - truth->offsets[i] > wanted)
+            find_range(&range, &walk, i, UINT32_MAX);
+        set_nearest(&reference->all->rgba[4 * i], &range, &image->rgba[4 * i]);
+        sum += truncation(&walk, i);
+        forget_row(&walk, i);
+    }
+    reference->truncation_rmse = sqrt(sum / (4.0 * (double)pixels));
+    ties_destroy(walk.ties);
+    return status;
+}
+
+void reference_free(fm_reference *reference)
+{
+    image_destroy(reference->wanted);
+    image_destroy(reference->all);
+    *reference = (fm_reference){ 0 };
+}
+
+fm_status reference_distance(double *max_abs, const fm_truth *truth, uint32_t wanted,
+                             const fm_image *image, fm_error *err)
+{
+    const uint64_t pixels = (uint64_t)truth->width_px * truth->height_px;
+    pixel_walk walk;
+    const fm_status status = begin(&walk, truth, wanted, err);
+    *max_abs = 0;
+    for (uint64_t i = 0; i < pixels && status == FM_OK; i++) {
+        fm_range range;
+        find_range(&range, &walk, i, wanted);
+        *max_abs = fmax(*max_abs, range_distance(&range, &image->rgba[4 * i]));
+        forget_row(&walk, i);
+    }
+    ties_destroy(walk.ties);
+    return status;
+}
+
+uint64_t truth_tied_pixels(const fm_truth *truth, uint32_t wanted)
+{
+    const uint64_t pixels = (uint64_t)truth->width_px * truth->height_px;
+    const pixel_walk walk = { .truth = truth };
+    uint64_t tied = 0;
+    for (uint64_t i = 0; i < pixels; i++) {
+        const uint64_t first = truth->offsets[i];
+        tied += ties_are_open(&truth->fragments[first], (uint32_t)(truth->offsets[i + 1] - first),
+                              wanted);
+        forget_row(&walk, i);
+    }
+    return tied;
+}

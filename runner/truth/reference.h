@@ -1,0 +1,34 @@
+/* What an image is compared with: of all pictures that truth allows the nearest to it. Where no
+ * depths tie there is one such picture; else each channel of a pixel has an interval (ties.h), and
+ * an image's error is its distance to that: 0 within it. */
+#ifndef FM_REFERENCE_H
+#define FM_REFERENCE_H
+
+#include "ties.h"
+#include "truth.h"
+
+typedef struct fm_reference {
+    fm_image *wanted; /* of the k nearest fragments; owned */
+    fm_image *all;    /* of all fragments; owned */
+    /* rmse of the k nearest against all of them, both in truth's own order */
+    double truncation_rmse;
+} fm_reference;
+
+/* wanted: how many fragments of a pixel, from the front; UINT32_MAX: all. image: as large as truth.
+ * reference_free also after a failure: FM_NO_MEMORY, FM_INVALID (sizes). */
+fm_status reference_create(fm_reference *reference, const fm_truth *truth, uint32_t wanted,
+                           const fm_image *image, fm_error *err);
+void reference_free(fm_reference *reference);
+
+/* The largest distance of any channel of the image from what truth allows of the wanted fragments;
+ * INFINITY: a channel is no number. */
+fm_status reference_distance(double *max_abs, const fm_truth *truth, uint32_t wanted,
+                             const fm_image *image, fm_error *err);
+
+/* The distance of one pixel's channels from a range: the largest; INFINITY as above. */
+double range_distance(const fm_range *range, const float rgba[4]);
+
+/* Pixels where ties leave the order, or the choice, of the wanted fragments open. */
+uint64_t truth_tied_pixels(const fm_truth *truth, uint32_t wanted);
+
+#endif
