@@ -94,7 +94,8 @@ void page_add_guide(fm_text *page)
         "composited "
         "in double precision; up to 1e-6 it is rounding, and called exact. It has two parts: "
         "<b>truncation_rmse</b>, the cost of keeping only k fragments, which no method with that "
-        "k avoids, and <b>rmse</b>, what the method itself loses.",
+        "k avoids, and <b>rmse</b>, what the method itself loses: where depths tie, its distance "
+        "to the nearest picture that any order of the tied fragments makes.",
         "<b>missing, extra, misordered</b> count fragments, not pixels. A method that claims to be "
         "exact and is not has the status wrong_image; for methods published as approximate or racy "
         "a wrong picture is a result.",

@@ -8,7 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <xxhash.h>
 
 #include "text.h"
 
@@ -50,11 +49,6 @@ void image_destroy(fm_image *image)
         return;
     free(image->rgba);
     free(image);
-}
-
-uint64_t image_hash(const fm_image *image)
-{
-    return XXH64(image->rgba, pixel_count(image) * BYTES_PER_PIXEL, 0);
 }
 
 /* Fills all but ssim; false: a channel is not finite. */

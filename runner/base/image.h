@@ -30,8 +30,6 @@ fm_status image_compare(fm_image_error *error, const fm_image *image, const fm_i
                         fm_error *err);
 /* The mean of error->ssim alone (ssim.c); sizes must agree. FM_NO_MEMORY. */
 fm_status image_ssim(double *ssim, const fm_image *image, const fm_image *reference, fm_error *err);
-/* xxhash64 of the pixels. */
-uint64_t image_hash(const fm_image *image);
 
 /* Raw file: "fragmark rgba32f WIDTH HEIGHT\n", then rows from the top, 16 little-endian bytes a
  * pixel. What fragmark-report turns into PNG and EXR. Written whole or not at all.

@@ -22,6 +22,7 @@ typedef struct fm_instance_desc {
     uint64_t fragments, fragments_kept; /* F and F_k of the scene, for formulas */
     bool is_capture;
     uint32_t capture_slots; /* fragments a pixel that the checked build has room for */
+    bool hashes_image;      /* instance_image_hash will be called */
     bool wants_primitive;   /* shaders see fm_primitive, the number of the triangle */
 } fm_instance_desc;
 
@@ -54,6 +55,9 @@ void instance_destroy(fm_instance *instance);
 /* One whole frame. band may be NULL. */
 fm_status instance_frame(fm_frame_result *result, fm_instance *instance, const fm_band *band,
                          fm_error *err);
+/* A hash of the image that the last frame drew, computed on the device: equal for equal pixels. Not
+ * of a checked build, which draws none. */
+fm_status instance_image_hash(uint64_t *hash, fm_instance *instance, fm_error *err);
 /* The emitting passes again, for another band; only if instance_can_emit_again. */
 fm_status instance_emit(fm_instance *instance, const fm_band *band, fm_error *err);
 bool instance_can_emit_again(const fm_instance *instance);

@@ -46,15 +46,14 @@ static fm_status start(frame_run *frame)
 static fm_status combine(frame_run *frame)
 {
     fm_instance *instance = frame->instance;
-    static const fm_pass pass = { .kind = FM_PASS_PIXELS };
     if (instance->combine.use_count == 0)
         return FM_OK;
     fm_status status = frame_record(frame);
     if (status != FM_OK)
         return status;
     frame_timer_begin(frame, COMBINE_TIMER);
-    status = pass_dispatch(instance, &pass, &instance->combine, pass_invocations(instance, &pass),
-                           frame->err);
+    status = pass_dispatch(instance, &instance_combine, &instance->combine,
+                           pass_invocations(instance, &instance_combine), frame->err);
     frame_timer_end(frame, COMBINE_TIMER);
     return status;
 }
@@ -139,4 +138,28 @@ fm_status instance_emit(fm_instance *instance, const fm_band *band, fm_error *er
     frame.err = status == FM_OK ? err : &ignored;
     const fm_status ended = frame_flush(&frame);
     return status == FM_OK ? ended : status;
+}
+
+fm_status instance_image_hash(uint64_t *hash, fm_instance *instance, fm_error *err)
+{
+    fm_device *device = instance->device;
+    fm_buffer *counters = instance->desc.stage->slots[STAGE_COUNTERS].buffer;
+    uint32_t words[STAGE_COUNTER_COUNT] = { 0 };
+    fm_frame_times times;
+    fm_status status = device->ops->frame_begin(device, err);
+    if (status != FM_OK)
+        return status;
+    device->ops->fill(device, counters, 0);
+    status = pass_dispatch(instance, &instance_hash, &instance->hash,
+                           pass_invocations(instance, &instance_hash), err);
+    /* After an error the frame that is open must still be ended, and the first error stays. */
+    fm_error ignored;
+    const fm_status ended =
+        device->ops->frame_end(device, &times, status == FM_OK ? err : &ignored);
+    if (status == FM_OK)
+        status = ended;
+    if (status == FM_OK)
+        status = device->ops->buffer_read(device, counters, 0, words, sizeof words, err);
+    *hash = (uint64_t)words[STAGE_COUNTER_IMAGE_HIGH] << 32 | words[STAGE_COUNTER_IMAGE_LOW];
+    return status;
 }

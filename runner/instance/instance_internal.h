@@ -55,7 +55,7 @@ struct fm_instance {
     size_t pass_count, resource_count, total_count;
     bool is_spin_locked;
     bool emits_back;
-    built_pass combine;
+    built_pass combine, hash; /* of the runner's own passes, below */
 };
 
 /* instance_resources.c */
@@ -125,7 +125,9 @@ void pass_define(fm_text *text, const fm_instance *instance, const fm_pass *pass
 fm_status pass_source(fm_text *text, const built_pass *built, const fm_instance *instance,
                       const fm_pass *pass, fm_error *err);
 
-/* instance_passes.c */
+/* instance_passes.c. The runner's own: the last pass of methods that emit from both ends, and the
+ * hash of the image. */
+extern const fm_pass instance_combine, instance_hash;
 fm_status passes_create(fm_instance *instance, fm_error *err);
 void passes_destroy(fm_instance *instance);
 

@@ -135,20 +135,27 @@ static fm_status build_pass(built_pass *built, fm_instance *instance, const fm_p
     return create_pipelines(built, instance, pass, err);
 }
 
-/* The runner's own last pass for methods that emit from both ends. */
-static fm_status build_combine(fm_instance *instance, fm_error *err)
+const fm_pass instance_combine = { .name = "combine",
+                                   .kind = FM_PASS_PIXELS,
+                                   .shader = "common/combine.glsl" };
+const fm_pass instance_hash = { .name = "image_hash",
+                                .kind = FM_PASS_TILES,
+                                .shader = "common/image_hash.glsl" };
+
+/* A pass of the runner's own, over the image. */
+static fm_status build_own(built_pass *built, fm_instance *instance, const fm_pass *pass,
+                           fm_error *err)
 {
-    static const fm_pass pass = { .name = "combine",
-                                  .kind = FM_PASS_PIXELS,
-                                  .shader = "common/combine.glsl" };
-    built_pass *built = &instance->combine;
+    const bool combines = pass == &instance_combine;
     *built = (built_pass){ 0 };
-    pass_collect_uses(built, instance, &pass);
-    pass_use_stage(built, instance, STAGE_OUTPUT, FM_ACCESS_READ | FM_ACCESS_WRITE);
-    pass_use_stage(built, instance, STAGE_OUTPUT_BACK, FM_ACCESS_READ);
+    pass_collect_uses(built, instance, pass);
+    pass_use_stage(built, instance, STAGE_OUTPUT,
+                   combines ? FM_ACCESS_READ | FM_ACCESS_WRITE : FM_ACCESS_READ);
+    if (combines)
+        pass_use_stage(built, instance, STAGE_OUTPUT_BACK, FM_ACCESS_READ);
     for (size_t i = 0; i < built->use_count; i++)
         built->uses[i].binding = SHADER_BINDING_FIRST + (uint32_t)i;
-    return create_pipelines(built, instance, &pass, err);
+    return create_pipelines(built, instance, pass, err);
 }
 
 fm_status passes_create(fm_instance *instance, fm_error *err)
@@ -158,7 +165,9 @@ fm_status passes_create(fm_instance *instance, fm_error *err)
         if (!pass_is_left_out(instance, &instance->method->passes[i]))
             status = build_pass(&instance->passes[i], instance, &instance->method->passes[i], err);
     if (status == FM_OK && instance->emits_back && !instance->desc.is_capture)
-        status = build_combine(instance, err);
+        status = build_own(&instance->combine, instance, &instance_combine, err);
+    if (status == FM_OK && instance->desc.hashes_image)
+        status = build_own(&instance->hash, instance, &instance_hash, err);
     return status;
 }
 
@@ -175,4 +184,5 @@ void passes_destroy(fm_instance *instance)
     for (size_t i = 0; i < instance->pass_count; i++)
         destroy_pass(instance, &instance->passes[i]);
     destroy_pass(instance, &instance->combine);
+    destroy_pass(instance, &instance->hash);
 }

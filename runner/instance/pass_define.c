@@ -55,6 +55,8 @@ static void define_counters(fm_text *text)
     shader_define(text, "FM_COUNTER_CULLED", STAGE_COUNTER_CULLED);
     shader_define(text, "FM_COUNTER_LOCKED", STAGE_COUNTER_LOCKED);
     shader_define(text, "FM_COUNTER_ARRIVED", STAGE_COUNTER_ARRIVED);
+    shader_define(text, "FM_COUNTER_IMAGE_LOW", STAGE_COUNTER_IMAGE_LOW);
+    shader_define(text, "FM_COUNTER_IMAGE_HIGH", STAGE_COUNTER_IMAGE_HIGH);
 }
 
 static bool release_exchanges(const fm_instance *instance)
@@ -86,6 +88,7 @@ void pass_define(fm_text *text, const fm_instance *instance, const fm_pass *pass
     define_culling(text, pass, instance->desc.settings);
     define_counters(text);
     shader_define(text, "FM_GROUP_LANES", FM_GROUP_LANES);
+    shader_define(text, "FM_TILE_PX", FM_TILE_PX);
     shader_define(text, "FM_LOOP_LIMIT", caps->loop_limit);
     shader_define(text, "FM_SUBGROUP_SIZE", caps->subgroup_size);
     shader_define(text, "FM_NARROW", instance_is_narrow(instance));

@@ -106,7 +106,7 @@ const fm_metric_info fm_metrics[FM_METRIC_COUNT] = {
     [FM_METRIC_TOTAL_RMSE] = { "total_rmse", "total", "",
         "rmse of the image against the picture of all fragments", CASE, LESS },
     [FM_METRIC_DISTINCT_IMAGES] = { "distinct_images", "distinct images", "",
-        "how many different images the launches drew", SUMMARY, LESS, MEASURED },
+        "how many different images all timed frames drew", SUMMARY, LESS, MEASURED },
     [FM_METRIC_FRAME_MS_LOW] = { "frame_ms_low", "frame, low", "ms",
         "lower end of the 95 % interval of frame_ms", SUMMARY, LESS, MEASURED },
     [FM_METRIC_FRAME_MS_HIGH] = { "frame_ms_high", "frame, high", "ms",

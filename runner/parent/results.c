@@ -1,6 +1,5 @@
 #include "results.h"
 #include "base/csv.h"
-#include "scene/layers.h"
 #include "simulator/counters.h"
 #include "worker/protocol.h"
 
@@ -96,6 +95,7 @@ void results_destroy(fm_results *results)
         free(result->launches);
         free(result->samples);
         free(result->row);
+        free(result->images);
     }
     free(results->cases);
     if (results->samples_fd >= 0)
@@ -196,20 +196,51 @@ static void worsen(fm_case_result *kept, uint32_t launch, fm_case_status status,
         kept->message[--length] = '\0';
 }
 
-/* Only launch 0 is checked against truth; an exact method's later images must equal that one. */
-static void compare_image(fm_results *results, size_t case_index, uint32_t launch)
+static fm_status keep_image(fm_case_result *kept, const char *digits, fm_error *err)
+{
+    const uint64_t hash = strtoull(digits != NULL ? digits : "", NULL, 16);
+    for (size_t i = 0; i < kept->image_count; i++)
+        if (kept->images[i] == hash)
+            return FM_OK;
+    uint64_t *grown = reallocarray(kept->images, kept->image_count + 1, sizeof *grown);
+    if (grown == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "no memory for %zu images", kept->image_count + 1);
+    kept->images = grown;
+    kept->images[kept->image_count++] = hash;
+    return FM_OK;
+}
+
+/* An answer without a list tells of its last frame alone. */
+static fm_status keep_images(fm_case_result *kept, const json_t *answer, fm_error *err)
+{
+    size_t index;
+    const json_t *hash;
+    fm_status status = FM_OK;
+    if (answer_image_hash(answer)[0] != '\0')
+        status = keep_image(kept, answer_image_hash(answer), err);
+    json_array_foreach(answer_image_hashes(answer), index, hash)
+    {
+        if (status == FM_OK)
+            status = keep_image(kept, json_string_value(hash), err);
+    }
+    return status;
+}
+
+/* Only launch 0 is checked against truth. Where no depths tie, all images of an exact method are
+ * that one; where some do, each launch compares its own with truth. */
+static void compare_images(fm_results *results, size_t case_index, uint32_t launch)
 {
     const fm_case *measured = &results->plan->cases[case_index];
     fm_case_result *kept = &results->cases[case_index];
     const fm_plugin_entry *entry = plugin_list_find(results->plugins, measured->method);
-    const char *checked = kept->launches[0].image_hash;
-    if (launch == 0 || checked[0] == '\0' || kept->launches[launch].image_hash[0] == '\0' ||
-        entry == NULL || entry->plugin == NULL || layers_may_tie(&measured->settings))
+    const json_t *tied = json_object_get(kept->metrics, fm_metrics[FM_METRIC_TIED_PIXELS].name);
+    if (launch == 0 || entry == NULL || entry->plugin == NULL || !json_is_integer(tied) ||
+        json_integer_value(tied) > 0)
         return;
     const uint32_t traits = entry->plugin->method->traits;
     if ((traits & FM_TRAIT_EXACT) == 0 || (traits & FM_TRAIT_RACY) != 0)
         return;
-    if (strcmp(checked, kept->launches[launch].image_hash) != 0)
+    if (kept->image_count > 1)
         worsen(kept, launch, FM_CASE_WRONG_IMAGE, "drew another image than the checked launch 0");
 }
 
@@ -224,9 +255,10 @@ static fm_status keep(fm_results *results, size_t case_index, uint32_t launch, c
     keep_device(kept, answer);
     kept->launches[launch].is_done = true;
     kept->done++;
-    snprintf(kept->launches[launch].image_hash, sizeof kept->launches[launch].image_hash, "%s",
-             answer_image_hash(answer));
-    compare_image(results, case_index, launch);
+    const fm_status images = keep_images(kept, answer, err);
+    if (images != FM_OK)
+        return images;
+    compare_images(results, case_index, launch);
     if (launch == 0) {
         kept->metrics = json_incref(answer_metrics(answer));
         kept->modelled = json_incref(answer_modelled(answer));

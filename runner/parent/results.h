@@ -23,7 +23,6 @@ typedef struct fm_kept_sample {
 typedef struct fm_launch_state {
     uint32_t begins; /* since the last end or stop */
     bool is_done;
-    char image_hash[17];
 } fm_launch_state;
 
 typedef struct fm_case_result {
@@ -31,6 +30,8 @@ typedef struct fm_case_result {
     char message[2048];        /* of that status */
     fm_launch_state *launches; /* [plan->launches] */
     uint32_t done;             /* launches that ended */
+    uint64_t *images;          /* [image_count]: hashes of different images, of all timed frames */
+    size_t image_count;
     fm_kept_sample *samples;
     size_t sample_count, sample_room;
     json_t *metrics;  /* of the checked launch; NULL before it */

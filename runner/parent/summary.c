@@ -201,16 +201,8 @@ static void write_times_floor(fm_text *text, const row_state *row)
 
 static void write_distinct_images(fm_text *text, const row_state *row)
 {
-    const fm_launch_state *launches = row->result->launches;
-    unsigned distinct = 0;
-    for (uint32_t i = 0; i < row->results->plan->launches; i++) {
-        bool is_new = launches[i].image_hash[0] != '\0';
-        for (uint32_t j = 0; j < i && is_new; j++)
-            is_new = strcmp(launches[i].image_hash, launches[j].image_hash) != 0;
-        distinct += is_new;
-    }
-    if (distinct > 0)
-        text_add(text, "%u", distinct);
+    if (row->result->image_count > 0)
+        text_add(text, "%zu", row->result->image_count);
 }
 
 static void write_rate(fm_text *text, const row_state *row)

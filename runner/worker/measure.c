@@ -16,7 +16,8 @@ fm_status measure_case(fm_measurement *measurement, const fm_measure_desc *desc,
 {
     *measurement = (fm_measurement){ 0 };
     measurement->samples = calloc(desc->frames, sizeof measurement->samples[0]);
-    if (measurement->samples == NULL)
+    measurement->image_hashes = calloc(desc->frames, sizeof measurement->image_hashes[0]);
+    if (measurement->samples == NULL || measurement->image_hashes == NULL)
         return fm_fail(err, FM_NO_MEMORY, "%u samples", desc->frames);
     fm_status status = measure_times(measurement, desc, err);
     if (status == FM_OK && desc->check)
@@ -29,6 +30,7 @@ fm_status measure_case(fm_measurement *measurement, const fm_measure_desc *desc,
 void measurement_free(fm_measurement *measurement)
 {
     free(measurement->samples);
+    free(measurement->image_hashes);
     image_destroy(measurement->image);
     image_destroy(measurement->truth_image);
     *measurement = (fm_measurement){ 0 };

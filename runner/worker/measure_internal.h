@@ -1,6 +1,5 @@
-/* Shared by measure.c (times) and measure_check.c (fragments and pictures); nobody else includes
- * it.
- */
+/* Shared by the files of measure.h: measure.c, measure_times.c (times), measure_images.c (their
+ * images) and measure_check.c (fragments and pictures). */
 #ifndef FM_MEASURE_INTERNAL_H
 #define FM_MEASURE_INTERNAL_H
 
@@ -16,6 +15,25 @@ uint32_t measure_k(const fm_measurement *measurement, const fm_measure_desc *des
 /* Takes bytes_predicted and bytes_used from the instance. */
 void measure_bytes(fm_measurement *measurement, const fm_instance *instance,
                    const fm_measure_desc *desc);
+
+/* Images of timed frames that wait for their comparison with truth. */
+enum { FRAME_IMAGES_KEPT = 16 };
+typedef struct frame_images {
+    const fm_measure_desc *desc;
+    fm_image *kept[FRAME_IMAGES_KEPT];
+    uint32_t count;
+} frame_images;
+
+void frame_images_begin(frame_images *images, fm_measurement *measurement,
+                        const fm_measure_desc *desc);
+/* Hashes the image of the frame that just ended. */
+fm_status frame_images_add(frame_images *images, fm_measurement *measurement, fm_instance *method,
+                           fm_error *err);
+/* Compares those that wait with truth: frames_max_abs. */
+fm_status frame_images_settle(frame_images *images, fm_measurement *measurement, fm_error *err);
+void frame_images_free(frame_images *images);
+/* The image of the last frame; the device keeps 1 - A in place of A. */
+fm_status measure_read_image(fm_image **image, fm_stage *stage, fm_error *err);
 
 /* The timed part. The method's memory is given back before the checked build asks for its own. The
  * floor's frame writes no image, so the method's stays in the output. */

@@ -6,27 +6,6 @@
 
 enum { LONG_FRAME_SAMPLES = 2, LOSSY_FRAMES = 16 };
 
-uint32_t measure_wanted(const fm_method_desc *method, uint32_t k)
-{
-    switch (method->keeps) {
-    case FM_KEEPS_K_NEAREST:
-        return k;
-    case FM_KEEPS_NEAREST:
-        return 1;
-    case FM_KEEPS_ALL:
-    case FM_KEEPS_ALL_IN_K:
-    case FM_KEEPS_COUNT:
-        break;
-    }
-    return UINT32_MAX;
-}
-
-uint32_t measure_places(const fm_method_desc *method, uint32_t k)
-{
-    const uint32_t wanted = method->keeps == FM_KEEPS_ALL_IN_K ? k : measure_wanted(method, k);
-    return wanted == UINT32_MAX ? 0 : wanted;
-}
-
 static uint64_t store_time(const fm_frame_result *frame, const fm_method_desc *method)
 {
     uint64_t sum = 0;
@@ -95,43 +74,6 @@ static fm_status sample_once(fm_sample *sample, fm_measurement *measurement,
     return status;
 }
 
-static fm_status take_samples(fm_measurement *measurement, const launch_pair *pair, fm_error *err)
-{
-    const fm_measure_desc *desc = pair->desc;
-    fm_sample ignored;
-    fm_status status = FM_OK;
-    bool is_long = false;
-    for (uint32_t i = 0; i < desc->warmup && status == FM_OK && !is_long; i++) {
-        status = sample_once(&ignored, measurement, pair, false, err);
-        is_long = i > 0 && ignored.wall_ns > MEASURE_LONG_FRAME_NS;
-    }
-    measurement->lost = 0;
-    for (uint32_t i = 0; i < desc->frames && status == FM_OK; i++) {
-        fm_sample *sample = &measurement->samples[i];
-        if (is_long && i >= LONG_FRAME_SAMPLES)
-            break;
-        status = sample_once(sample, measurement, pair, i % 2 == 1, err);
-        is_long = is_long || sample->wall_ns > MEASURE_LONG_FRAME_NS;
-        measurement->sample_count = i + 1;
-    }
-    measurement->is_long = is_long;
-    return status;
-}
-
-/* The device keeps 1 - A in place of A. */
-static fm_status read_image(fm_image **image, fm_stage *stage, fm_error *err)
-{
-    const fm_scene *scene = stage->scene;
-    const uint64_t pixels = (uint64_t)scene->width_px * scene->height_px;
-    fm_status status = image_create(image, scene->width_px, scene->height_px, err);
-    if (status == FM_OK)
-        status = stage->device->ops->buffer_read(stage->device, stage->slots[STAGE_OUTPUT].buffer,
-                                                 0, (*image)->rgba, pixels * 16, err);
-    for (uint64_t i = 0; i < pixels && status == FM_OK; i++)
-        (*image)->rgba[4 * i + 3] = 1.0f - (*image)->rgba[4 * i + 3];
-    return status;
-}
-
 /* A k that the method chose is judged before anything is compared with it. */
 static fm_status take_k(fm_measurement *measurement, const fm_instance *instance,
                         const fm_instance_desc *desc, fm_error *err)
@@ -146,11 +88,36 @@ static fm_status take_k(fm_measurement *measurement, const fm_instance *instance
     return FM_OK;
 }
 
-uint32_t measure_k(const fm_measurement *measurement, const fm_measure_desc *desc)
+static fm_status take_samples(fm_measurement *measurement, const launch_pair *pair, fm_error *err)
 {
-    return measurement->k_chosen > 0
-               ? measurement->k_chosen
-               : measure_wanted(desc->method->method, desc->method->settings->k);
+    const fm_measure_desc *desc = pair->desc;
+    frame_images images;
+    fm_sample ignored;
+    fm_status status = FM_OK;
+    bool is_long = false;
+    for (uint32_t i = 0; i < desc->warmup && status == FM_OK && !is_long; i++) {
+        status = sample_once(&ignored, measurement, pair, false, err);
+        is_long = i > 0 && ignored.wall_ns > MEASURE_LONG_FRAME_NS;
+    }
+    measurement->lost = 0;
+    frame_images_begin(&images, measurement, desc);
+    for (uint32_t i = 0; i < desc->frames && status == FM_OK; i++) {
+        fm_sample *sample = &measurement->samples[i];
+        if (is_long && i >= LONG_FRAME_SAMPLES)
+            break;
+        status = sample_once(sample, measurement, pair, i % 2 == 1, err);
+        is_long = is_long || sample->wall_ns > MEASURE_LONG_FRAME_NS;
+        measurement->sample_count = i + 1;
+        if (status == FM_OK)
+            status = take_k(measurement, pair->method, desc->method, err);
+        if (status == FM_OK)
+            status = frame_images_add(&images, measurement, pair->method, err);
+    }
+    if (status == FM_OK)
+        status = frame_images_settle(&images, measurement, err);
+    frame_images_free(&images);
+    measurement->is_long = is_long;
+    return status;
 }
 
 void measure_bytes(fm_measurement *measurement, const fm_instance *instance,
@@ -167,16 +134,16 @@ fm_status measure_times(fm_measurement *measurement, const fm_measure_desc *desc
     fm_stage *stage = desc->method->stage;
     const fm_ledger *ledger = &stage->device->ledger;
     fm_instance *method = NULL, *floor = NULL;
+    fm_instance_desc timed = *desc->method;
+    timed.hashes_image = true;
     fm_status status = instance_create(&floor, desc->floor, err);
     measurement->is_floors = status != FM_OK;
     if (status == FM_OK)
-        status = instance_create(&method, desc->method, err);
+        status = instance_create(&method, &timed, err);
     if (status == FM_OK)
         status = take_samples(measurement, &(launch_pair){ method, floor, desc }, err);
     if (status == FM_OK)
-        status = read_image(&measurement->image, stage, err);
-    if (status == FM_OK)
-        status = take_k(measurement, method, desc->method, err);
+        status = measure_read_image(&measurement->image, stage, err);
     if (status == FM_OK)
         measure_bytes(measurement, method, desc);
     /* What destroying it gives back: the floor may have grown beside it. */

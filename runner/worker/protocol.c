@@ -173,6 +173,15 @@ void answer_set_image_hash(json_t *answer, uint64_t hash)
     json_object_set_new(answer, "image_hash", json_string(digits));
 }
 
+void answer_set_image_hashes(json_t *answer, uint64_t hash, const uint64_t *hashes, size_t count)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < count; i++)
+        json_array_append_new(list, json_sprintf("%016" PRIx64, hashes[i]));
+    answer_set_image_hash(answer, hash);
+    json_object_set_new(answer, "image_hashes", list);
+}
+
 void answer_set_measured(json_t *answer, json_t *metrics, json_t *samples)
 {
     json_object_set_new(answer, "metrics", metrics);
@@ -228,6 +237,7 @@ const char *answer_fault(const json_t *answer)
     const json_t *sample;
     const json_t *samples = json_object_get(answer, "samples");
     const json_t *metrics = json_object_get(answer, "metrics");
+    const json_t *hashes = answer_image_hashes(answer);
     if (!json_is_object(answer))
         return "not an object";
     if (!case_status_parse(&status, json_string_value(json_object_get(answer, "status"))))
@@ -238,6 +248,8 @@ const char *answer_fault(const json_t *answer)
         return "'metrics' is not an object";
     if (samples != NULL && !json_is_array(samples))
         return "'samples' is not a list";
+    if (hashes != NULL && !json_is_array(hashes))
+        return "'image_hashes' is not a list";
     json_array_foreach(samples, index, sample)
     {
         const char *fault = sample_fault(sample);
@@ -272,6 +284,11 @@ const char *answer_message(const json_t *answer)
 const char *answer_image_hash(const json_t *answer)
 {
     return text_in(answer, "image_hash");
+}
+
+json_t *answer_image_hashes(const json_t *answer)
+{
+    return json_object_get(answer, "image_hashes");
 }
 
 json_t *answer_metrics(const json_t *answer)

@@ -21,7 +21,8 @@
  *     "is_truth_unusable": false,           true, with is_runs_fault: the truth file is to be made
  * anew "device_name": "...", "device_driver": "...", "device_api": "...", "has_gpu_clock": false,
  * "is_software": true, "modelled": { "scene": [...], "passes": [...], "buffers": [...] },    names
- *     "image_hash": "16 hex digits",
+ *     "image_hash": "16 hex digits",        of the last timed frame
+ *     "image_hashes": ["16 hex digits"],    of all timed frames, each once
  *     "metrics": { "n": 128, ... },         one number a case, by its metric's name
  *     "samples": [ { "frame": 0, "metric": "store_ms", "value": 1.25, "unit": "ms" }, ... ] }
  *
@@ -86,6 +87,7 @@ void answer_set_runs_fault(json_t *answer, const char *message);
 /* Beside that: it was the truth file, which is damaged or cannot be read. */
 void answer_set_truth_unusable(json_t *answer);
 void answer_set_image_hash(json_t *answer, uint64_t hash);
+void answer_set_image_hashes(json_t *answer, uint64_t hash, const uint64_t *hashes, size_t count);
 /* Takes the references. */
 void answer_set_measured(json_t *answer, json_t *metrics, json_t *samples);
 void answer_set_modelled(json_t *answer, json_t *scene, json_t *passes, json_t *buffers);
@@ -106,7 +108,8 @@ bool answer_is_runs_fault(const json_t *answer);
 bool answer_is_truth_unusable(const json_t *answer);
 const char *answer_message(const json_t *answer);    /* "": there is none */
 const char *answer_image_hash(const json_t *answer); /* the same */
-json_t *answer_metrics(const json_t *answer);        /* borrowed; NULL: none */
+json_t *answer_image_hashes(const json_t *answer);   /* borrowed; NULL: none */
+json_t *answer_metrics(const json_t *answer);        /* the same */
 json_t *answer_modelled(const json_t *answer);       /* the same */
 json_t *answer_samples(const json_t *answer);        /* the same */
 

@@ -139,6 +139,31 @@ static fm_case_status verdict(const launch_job *job, fm_status status)
     return is_plugins ? FM_CASE_PLUGIN_ERROR : FM_CASE_NOT_SUPPORTED;
 }
 
+/* Of an exact method: what its timed frames drew. Where no depths tie they all draw one image, and
+ * that of launch 0 is checked; where some do, each different one is compared with truth. */
+static bool is_image_wrong(launch_job *job)
+{
+    const fm_measurement *m = &job->measurement;
+    const double allowed = measure_image_tolerance(job->truth->n);
+    const bool is_racy = (job->desc.traits & FM_TRAIT_RACY) != 0;
+    if (m->self_max_abs > allowed)
+        fm_fail(&job->error, FM_OK,
+                "declared exact, but the timed image is %.3g from its own fragments (%.2g is "
+                "allowed)",
+                m->self_max_abs, allowed);
+    else if (m->frames_max_abs > allowed)
+        fm_fail(&job->error, FM_OK,
+                "declared exact, but the image of a timed frame is %.3g from all that truth allows "
+                "(%.2g is allowed)",
+                m->frames_max_abs, allowed);
+    else if (!m->may_differ && !is_racy && m->distinct_images > 1)
+        fm_fail(&job->error, FM_OK, "declared exact, but its timed frames drew %u different images",
+                m->distinct_images);
+    else
+        return false;
+    return true;
+}
+
 /* An exact method is judged; of others wrong images are data. */
 static bool is_wrong(launch_job *job)
 {
@@ -150,7 +175,7 @@ static bool is_wrong(launch_job *job)
                 job->wrong_tiles);
         return true;
     }
-    if (!m->is_checked || (job->desc.traits & FM_TRAIT_EXACT) == 0)
+    if (m->image == NULL || (job->desc.traits & FM_TRAIT_EXACT) == 0)
         return false;
     if (m->check.missing + m->check.extra + m->check.misordered + m->lost > 0) {
         fm_fail(&job->error, FM_OK,
@@ -160,13 +185,7 @@ static bool is_wrong(launch_job *job)
                 m->check.wrong_pixels);
         return true;
     }
-    const double allowed = measure_image_tolerance(job->truth->n);
-    if (m->self_max_abs <= allowed)
-        return false;
-    fm_fail(&job->error, FM_OK,
-            "declared exact, but the timed image is %.3g from its own fragments (%.2g is allowed)",
-            m->self_max_abs, allowed);
-    return true;
+    return is_image_wrong(job);
 }
 
 /* Frames: the simulated GPU runs the whole sequence; a truth job has no method, the baseline. */
