@@ -10,6 +10,13 @@ typedef struct tied {
     double ratio; /* c / a; INFINITY for a = 0 */
 } tied;
 
+/* Fragments at one depth, and how many of them are wanted. */
+typedef struct tied_group {
+    uint32_t count, take;
+    uint32_t kept; /* without those of c = a = 0 in this channel */
+    bool has_one_alpha;
+} tied_group;
+
 struct fm_ties {
     tied *group;  /* [n] */
     double *best; /* [n + 1]: f of the rows that are done, by j */
@@ -150,26 +157,29 @@ static bool has_one_alpha(const fm_fragment *group, uint32_t count)
     return true;
 }
 
-/* Of one channel, the largest or smallest value of `take` of a group. */
-static double extreme(fm_ties *ties, const fm_fragment *group, uint32_t count, uint32_t take,
-                      int channel, bool is_largest)
+/* Of a sorted group of which `kept` are not set aside: the largest or smallest value of `take`. */
+static double extreme(fm_ties *ties, const tied_group *group, bool is_largest)
 {
-    const uint32_t kept = sort_group(ties, group, count, channel), zeros = count - kept;
-    if (take == count)
-        return composite_first(ties, kept, kept, is_largest);
-    if (zeros == 0 && has_one_alpha(group, count))
-        return composite_first(ties, kept, take, is_largest);
-    return composite_best(ties, kept, zeros, take, is_largest);
+    const uint32_t zeros = group->count - group->kept;
+    if (group->take == group->count)
+        return composite_first(ties, group->kept, group->kept, is_largest);
+    if (zeros == 0 && group->has_one_alpha)
+        return composite_first(ties, group->kept, group->take, is_largest);
+    return composite_best(ties, group->kept, zeros, group->take, is_largest);
 }
 
-static void add_group(fm_range *range, double through, fm_ties *ties, const fm_fragment *group,
+static void add_group(fm_range *range, double through, fm_ties *ties, const fm_fragment *fragments,
                       uint32_t count, uint32_t take)
 {
+    tied_group group = { .count = count,
+                         .take = take,
+                         .has_one_alpha = has_one_alpha(fragments, count) };
     for (int channel = 0; channel < 4; channel++) {
-        double low = channel_of(group, channel), high = low;
+        double low = channel_of(fragments, channel), high = low;
         if (count > 1) {
-            low = extreme(ties, group, count, take, channel, false);
-            high = extreme(ties, group, count, take, channel, true);
+            group.kept = sort_group(ties, fragments, count, channel);
+            low = extreme(ties, &group, false);
+            high = extreme(ties, &group, true);
         }
         range->low[channel] += through * low;
         range->high[channel] += through * high;
