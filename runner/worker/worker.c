@@ -7,6 +7,7 @@
 #include "answer.h"
 #include "capture/truth_capture.h"
 #include "generators/generate.h"
+#include "image_files.h"
 #include "measure.h"
 #include "model/feeds.h"
 #include "plugin/culling_apply.h"
@@ -233,24 +234,6 @@ static fm_status truth_job(launch_job *job)
     return FM_OK;
 }
 
-static fm_status write_images(launch_job *job)
-{
-    const char *path = job->request->image;
-    char truth_path[FM_PATH_MAX_BYTES];
-    static const char suffix[] = ".rgba32f";
-    const size_t length = strlen(path);
-    if (length == 0)
-        return FM_OK;
-    if (length < sizeof suffix || length + sizeof ".truth" > sizeof truth_path)
-        return fm_fail(&job->error, FM_IO, "the image's path '%s' is too short or too long", path);
-    snprintf(truth_path, sizeof truth_path, "%.*s.truth%s", (int)(length - sizeof suffix + 1), path,
-             suffix);
-    fm_status status = image_write(path, job->measurement.image, &job->error);
-    if (status == FM_OK && job->measurement.truth_image != NULL)
-        status = image_write(truth_path, job->measurement.truth_image, &job->error);
-    return status;
-}
-
 static fm_status measure(launch_job *job)
 {
     const char *common = job->request->common;
@@ -329,7 +312,8 @@ static fm_status measure_job(launch_job *job)
         status = run_method(job);
     }
     if (status == FM_OK)
-        status = write_images(job);
+        status = image_files_write(job->request->image, job->measurement.image,
+                                   job->measurement.truth_image, &job->error);
     if (status != FM_OK)
         return status;
     if (job->measurement.is_long)
