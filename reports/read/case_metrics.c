@@ -79,7 +79,8 @@ double case_metric(const fm_result_files *results, const fm_case_row *result, co
     const derived *metric = derived_find(name);
     if (metric != NULL)
         return metric->value(result->metric[FM_METRIC_FRAME_MS], result);
-    if (case_number(&value, result, name))
+    /* Files from before a metric had a column have it in samples.csv. */
+    if (case_number(&value, result, name) && !isnan(value))
         return value;
     return sample_median(results, (size_t)(result - results->cases), name);
 }

@@ -69,6 +69,7 @@ const fm_column fm_columns[] = {
     METRIC(FRAME_WALL_MS),
     METRIC(FRAGMENTS_PER_S),
     METRIC(TIED_PIXELS),
+    METRIC(WRONG_TILES),
 };
 /* clang-format on */
 _Static_assert(sizeof fm_columns / sizeof fm_columns[0] == FM_COLUMN_COUNT, "FM_COLUMN_COUNT");

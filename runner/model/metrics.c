@@ -92,13 +92,15 @@ const fm_metric_info fm_metrics[FM_METRIC_COUNT] = {
     [FM_METRIC_RMSE] = { "rmse", "RMSE", "",
         "root mean squared error over all pixels of the viewport and four channels, linear and "
         "premultiplied, against the picture of the fragments that the method is to keep; where depths "
-        "tie, against the nearest of all pictures that truth allows", CASE, LESS },
+        "tie, against the nearest of all pictures that truth allows; of a sequence over all its frames, "
+        "against the baseline's", CASE, LESS },
     [FM_METRIC_PSNR_DB] = { "psnr_db", "PSNR", "dB", "-20 log10 of rmse; inf for equal images", CASE,
         MORE },
     [FM_METRIC_MAX_ABS] = { "max_abs", "largest error", "",
-        "the largest error of any channel of any pixel", CASE, LESS },
+        "the largest error of any channel of any pixel, in any frame of a sequence", CASE, LESS },
     [FM_METRIC_SSIM] = { "ssim", "SSIM", "",
-        "structural similarity, mean over windows; 1 for equal images", CASE, MORE },
+        "structural similarity, mean over windows, in a sequence those of all frames; 1 for equal "
+        "images", CASE, MORE },
     [FM_METRIC_FLIP] = { "flip", "FLIP", "", "not computed yet: the column is empty", CASE, LESS },
     [FM_METRIC_TRUNCATION_RMSE] = { "truncation_rmse", "truncation", "",
         "rmse of the k nearest fragments against all of them: what keeping only k costs, whatever the "

@@ -1,16 +1,18 @@
 /* What the files behind technique_job.h share; nobody else includes it. From below:
- *   technique_truth.c    the baseline's images: made, read, and compared with
+ *   technique_truth.c    the baseline's tiles: made, read, and compared with
+ *   technique_error.c    how far the wrong frames are from the baseline's
  *   technique_metrics.c  counts, cycles and energy of a sequence as metrics
  *   technique_job.c      the run of a sequence */
 #ifndef FM_TECHNIQUE_INTERNAL_H
 #define FM_TECHNIQUE_INTERNAL_H
 
+#include "base/image.h"
 #include "simulator/models/cycles.h"
 #include "simulator/models/energy.h"
 #include "simulator/tbr.h"
 #include "technique_job.h"
 
-/* The baseline's images: a hash for each tile of each frame, and the last frame's pixels. */
+/* The baseline's images: a hash for each tile of each frame. */
 typedef struct sequence_truth_header {
     char magic[8];
     uint32_t width_px, height_px, frame_count, tile_count;
@@ -35,7 +37,11 @@ typedef struct technique_run {
     tbr_counters sum;
     cycles_frame cycle_sum;
     double spilled_sum; /* weighted by the parameter buffer's bytes */
-    uint64_t wrong_tiles, wrong_frames;
+    fm_technique_outcome outcome;
+    tbr *baseline;        /* once a frame was wrong, to draw it */
+    fm_image_error error; /* of the wrong frames: root of the sum of their squared rmse, the largest
+                             max_abs, the sum of ssim */
+    uint64_t image_hash;  /* of the frames so far */
     double seconds;
 } technique_run;
 
@@ -44,12 +50,18 @@ typedef struct technique_run {
 fm_status technique_truth_make(technique_run *run, fm_error *err);
 /* FM_IO: it cannot be read, or is another sequence's. */
 fm_status technique_truth_read(technique_run *run, fm_error *err);
-/* The last frame's RGBA8 pixels in the truth. */
-char *technique_truth_pixels(const sequence_truth *truth);
-/* How many tiles of the frame differ from the truth; 0 for the baseline, which makes it. */
-uint64_t technique_check_frame(technique_run *run, uint32_t frame);
-/* Errors of the last frame's picture, as metrics; its image is written only where it differs. */
-fm_status technique_compare_last(technique_run *run, fm_error *err);
+/* Takes the frame that the baseline has drawn. */
+void technique_truth_add(const sequence_truth *truth, const tbr *gpu, uint32_t frame);
+/* How many tiles of the frame that the GPU has drawn are not the truth's. */
+uint64_t technique_wrong_tiles(const sequence_truth *truth, const tbr *gpu, uint32_t frame);
+
+/* technique_error.c */
+/* Adds a wrong frame's errors; of the first of them, the picture and its truth are written. FM_IO:
+ * that failed, or the truth is another sequence's. */
+fm_status technique_compare_frame(technique_run *run, const fm_frame *frame, uint32_t index,
+                                  fm_error *err);
+/* Image errors of the sequence, wrong tiles and frames, as metrics. */
+void technique_set_errors(technique_run *run);
 
 /* technique_metrics.c */
 energy_result technique_energy(const technique_run *run, const tbr_counters *counters,

@@ -1,7 +1,6 @@
 #include "technique_job.h"
 
 #include <stdlib.h>
-#include <string.h>
 #include <xxhash.h>
 
 #include "answer.h"
@@ -22,16 +21,31 @@ static void add_cycles(cycles_frame *sum, const cycles_frame *more)
     sum->signature_stall += more->signature_stall;
 }
 
-static void take_frame(technique_run *run, uint32_t index)
+/* The baseline's frame is truth; a technique's is compared with it. *wrong: its wrong tiles. */
+static fm_status check_frame(uint64_t *wrong, technique_run *run, const fm_frame *frame,
+                             uint32_t index, fm_error *err)
+{
+    fm_technique_outcome *outcome = &run->outcome;
+    *wrong = 0;
+    if (run->job->method == NULL)
+        technique_truth_add(&run->truth, run->gpu, index);
+    else
+        *wrong = technique_wrong_tiles(&run->truth, run->gpu, index);
+    if (*wrong == 0)
+        return FM_OK;
+    if (outcome->wrong_frames++ == 0)
+        outcome->first_wrong_frame = index;
+    outcome->wrong_tiles += *wrong;
+    return technique_compare_frame(run, frame, index, err);
+}
+
+static void count_frame(technique_run *run, uint32_t index, uint64_t wrong)
 {
     const tbr_counters *counts = tbr_counts(run->gpu);
     const cycles_frame time = cycles_of_frame(run->cycles, counts);
     const double spilled = cycles_spilled(&run->table.nominal, counts);
     const double all = time.geometry[CYCLES_NOMINAL] + time.raster[CYCLES_NOMINAL];
     const energy_result energy = technique_energy(run, counts, all, spilled, &run->table.nominal);
-    const uint64_t wrong = technique_check_frame(run, index);
-    run->wrong_tiles += wrong;
-    run->wrong_frames += wrong > 0;
     answer_add_sample(run->samples, index, FM_METRIC_FRAME_CYCLES, all);
     answer_add_sample(run->samples, index, FM_METRIC_FRAME_ENERGY_NJ, energy.total);
     answer_add_sample(run->samples, index, FM_METRIC_FRAME_TILES_SKIPPED,
@@ -46,9 +60,22 @@ static void take_frame(technique_run *run, uint32_t index)
     run->spilled_sum += spilled * (double)(counts->attribute_bytes + counts->list_bytes);
 }
 
+static fm_status take_frame(technique_run *run, const fm_frame *frame, uint32_t index,
+                            fm_error *err)
+{
+    const size_t bytes = (size_t)run->sequence->width_px * run->sequence->height_px * 4;
+    uint64_t wrong;
+    const fm_status status = check_frame(&wrong, run, frame, index, err);
+    run->image_hash = XXH64(tbr_image(run->gpu), bytes, run->image_hash);
+    if (status == FM_OK)
+        count_frame(run, index, wrong);
+    return status;
+}
+
 static fm_status run_frames(technique_run *run, fm_error *err)
 {
     fm_status status = FM_OK;
+    run->outcome.frames = run->sequence->frame_count;
     for (uint32_t i = 0; i < run->sequence->frame_count && status == FM_OK; i++) {
         const fm_frame *frame = NULL;
         status = run->sequence->frame(run->sequence, &frame, i, err);
@@ -60,25 +87,21 @@ static fm_status run_frames(technique_run *run, fm_error *err)
         run->seconds +=
             i > 0 ? clock_s() - begin : 0; /* of the frames whose fragments are summed */
         if (status == FM_OK)
-            take_frame(run, i);
+            status = take_frame(run, frame, i, err);
     }
     return status;
 }
 
 static fm_status finish(json_t *answer, technique_run *run, fm_error *err)
 {
-    const size_t bytes = (size_t)run->sequence->width_px * run->sequence->height_px * 4;
     fm_status status = FM_OK;
-    if (run->job->method == NULL) {
-        memcpy(technique_truth_pixels(&run->truth), tbr_image(run->gpu), bytes);
+    if (run->job->method == NULL)
         status = text_write_file(run->job->truth, run->truth.bytes, run->truth.count, err);
-    } else {
-        status = technique_compare_last(run, err);
-    }
     if (status != FM_OK)
         return status;
     technique_set_metrics(run);
-    answer_set_image_hash(answer, XXH64(tbr_image(run->gpu), bytes, 0));
+    technique_set_errors(run);
+    answer_set_image_hash(answer, run->image_hash);
     answer_set_measured(answer, json_incref(run->metrics), json_incref(run->samples));
     technique_set_modelled(answer, run);
     return FM_OK;
@@ -114,8 +137,8 @@ static fm_status start(technique_run *run, fm_error *err)
     return status;
 }
 
-fm_status technique_job_run(json_t *answer, uint64_t *wrong_tiles, const fm_technique_job *job,
-                            fm_error *err)
+fm_status technique_job_run(json_t *answer, fm_technique_outcome *outcome,
+                            const fm_technique_job *job, fm_error *err)
 {
     technique_run run = { .job = job, .samples = json_array(), .metrics = json_object() };
     fm_status status = start(&run, err);
@@ -123,10 +146,11 @@ fm_status technique_job_run(json_t *answer, uint64_t *wrong_tiles, const fm_tech
         status = run_frames(&run, err);
     if (status == FM_OK)
         status = finish(answer, &run, err);
-    *wrong_tiles = run.wrong_tiles;
+    *outcome = run.outcome;
     json_decref(run.samples);
     json_decref(run.metrics);
     free(run.truth.bytes);
+    tbr_destroy(run.baseline);
     tbr_destroy(run.gpu);
     cycles_destroy(run.cycles);
     sequence_destroy(run.sequence);

@@ -1,6 +1,6 @@
 /* A launch whose feed is `frames`: a technique runs a whole sequence on the simulated GPU.
  *
- * The answer gets (protocol.h) image_hash of the last frame; samples of each frame: frame.cycles,
+ * The answer gets (protocol.h) image_hash of all frames; samples of each frame: frame.cycles,
  * frame.energy_nj, frame.tiles_skipped, frame.fragments_shaded, frame.wrong_tiles; and metrics.
  *
  * Metrics that are sums over all frames but the first, in which no technique has anything to go by:
@@ -9,8 +9,9 @@
  * cycles of the raster stages), cycles.VARIANT (models/cycles.h); energy_nj, energy.COMPONENT_nj,
  * energy_corner.NAME_nj (models/energy.h).
  *
- * Metrics against the baseline's image: wrong_tiles and wrong_frames of all frames; rmse, psnr_db,
- * max_abs and ssim of the last. And how fast the simulation was: simulated_fragments_per_core_s. */
+ * Metrics against the baseline's images, over all frames: wrong_tiles, wrong_frames, rmse, psnr_db,
+ * max_abs and ssim (model/metrics.c). And how fast the simulation was:
+ * simulated_fragments_per_core_s. */
 #ifndef FM_TECHNIQUE_JOB_H
 #define FM_TECHNIQUE_JOB_H
 
@@ -25,14 +26,21 @@ typedef struct fm_technique_job {
     const fm_choice *choices;
     size_t choice_count;
     const char *truth; /* file: written by the baseline, else read */
-    const char *image; /* file for the last frame where it is not the baseline's; "": none */
+    const char *image; /* file for the first frame that is not the baseline's; "": none */
 } fm_technique_job;
 
-/* *wrong_tiles: of all frames. FM_UNSUPPORTED: a sequence or a model that cannot be had.
+/* What became of a sequence. */
+typedef struct fm_technique_outcome {
+    uint32_t frames;
+    uint64_t wrong_tiles; /* of all frames: their colours are not the baseline's */
+    uint32_t wrong_frames, first_wrong_frame; /* frames with such a tile, counted from 0 */
+} fm_technique_outcome;
+
+/* FM_UNSUPPORTED: a sequence or a model that cannot be had.
  * FM_INVALID: a frame that the simulator does not take. FM_IO: the truth or the image cannot be
  * read or written.
  */
-fm_status technique_job_run(json_t *answer, uint64_t *wrong_tiles, const fm_technique_job *job,
-                            fm_error *err);
+fm_status technique_job_run(json_t *answer, fm_technique_outcome *outcome,
+                            const fm_technique_job *job, fm_error *err);
 
 #endif

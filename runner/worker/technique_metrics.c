@@ -69,8 +69,6 @@ void technique_set_metrics(technique_run *run)
         json_object_set_new(run->metrics, tbr_counter_infos[i].name,
                             json_integer((json_int_t)counters_get(&run->sum, i)));
     answer_set_count(run->metrics, FM_METRIC_FRAGMENTS_GENERATED, run->sum.fragments_rasterised);
-    answer_set_count(run->metrics, FM_METRIC_WRONG_TILES, run->wrong_tiles);
-    answer_set_count(run->metrics, FM_METRIC_WRONG_FRAMES, run->wrong_frames);
     set_cycles(run);
     set_energy(run);
     const double core_s = run->seconds * tbr_thread_count(run->gpu);

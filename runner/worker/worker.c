@@ -31,7 +31,7 @@ typedef struct launch_job {
     fm_stage *stage;
     char hull[FM_PATH_MAX_BYTES + 8]; /* beside the truth, for later launches of the scene */
     fm_measurement measurement;
-    uint64_t wrong_tiles; /* of a technique */
+    fm_technique_outcome sequence; /* of a technique */
     fm_error error;
     bool has_request; /* it was read and understood */
     bool is_plugins;  /* the plugin is at work: what fails now is its fault */
@@ -169,11 +169,15 @@ static bool is_image_wrong(launch_job *job)
 static bool is_wrong(launch_job *job)
 {
     const fm_measurement *m = &job->measurement;
+    const fm_technique_outcome *sequence = &job->sequence;
     if (job->method == NULL)
         return false;
-    if (job->wrong_tiles > 0 && (job->method->method->traits & FM_TRAIT_EXACT) != 0) {
-        fm_fail(&job->error, FM_OK, "declared exact, but %" PRIu64 " tiles are not the baseline's",
-                job->wrong_tiles);
+    if (sequence->wrong_tiles > 0 && (job->method->method->traits & FM_TRAIT_EXACT) != 0) {
+        fm_fail(&job->error, FM_OK,
+                "declared exact, but %" PRIu64 " tiles in %u of %u frames are not the baseline's, "
+                "the first in frame %u",
+                sequence->wrong_tiles, sequence->wrong_frames, sequence->frames,
+                sequence->first_wrong_frame);
         return true;
     }
     if (m->image == NULL || (job->desc.traits & FM_TRAIT_EXACT) == 0)
@@ -204,7 +208,7 @@ static fm_status frames_job(launch_job *job)
     if (status == FM_OK)
         status = not_the_plugins(settings_finish(&job->settings, &job->error));
     if (status == FM_OK)
-        status = technique_job_run(job->answer, &job->wrong_tiles, &desc, &job->error);
+        status = technique_job_run(job->answer, &job->sequence, &desc, &job->error);
     job->is_truths = status == FM_IO && job->method != NULL;
     return status;
 }

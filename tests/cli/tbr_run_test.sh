@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# tbr_run_test.sh PROGRAM: techniques of the simulated GPU from the command line: cases, metrics, an axis
+# tbr_run_test.sh PROGRAM TEST_TECHNIQUES: techniques of the simulated GPU from the command line: cases, metrics, an axis
 # of the models, and what is refused in which words.
 set -euo pipefail
 program=$1
+plugins=$2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 fail() { echo "$*"; exit 1; }
@@ -53,10 +54,29 @@ run --method tbr-evr-safe -o "$work/third" 2>/dev/null
 diff <(counts "$work/again") <(counts "$work/third") >/dev/null || fail "counts differ"
 
 # Made to break techniques: published EVR draws some of it wrong; all others are declared exact.
-"$program" run --device tbr --scene frames/adversarial --method all -a seed=1:4:+1 --no-report \
+"$program" run --device tbr --scene frames/adversarial --method all -a seed=1:4:+1 -a launches=1 --no-report \
     -o "$work/adversarial" 2>"$work/log" || { cat "$work/log"; exit 1; }
 [ "$(grep -c ',ok,' "$work/adversarial/summary.csv")" = 40 ] || fail "not 40 cases ok"
-grep -q ',,,wrong_tiles,[1-9]' "$work/adversarial/samples.csv" || fail "EVR draws what was made to break it"
+# wrong_tiles sums the frames', and where there are any, the errors of all frames are there.
+awk -F, '
+    FNR == 1 { file++; for (i = 1; i <= NF; i++) at[file, $i] = i; next }
+    file == 1 && $6 == "frame.wrong_tiles" { sum[$3] += $7; }
+    file == 2 {
+        tiles = $at[2, "wrong_tiles"]; id = $at[2, "case_id"]
+        if (tiles == "" || tiles != sum[id]) exit 1
+        if ((tiles > 0) != ($at[2, "rmse"] > 0) || (tiles > 0) != ($at[2, "max_abs"] > 0)) exit 2
+        if ((tiles > 0) != ($at[2, "ssim"] < 1)) exit 3
+        wrong += tiles > 0
+    }
+    END { print wrong + 0 }' "$work/adversarial/samples.csv" <(sed 's/"[^"]*"/quoted/g' "$work/adversarial/summary.csv") \
+    >"$work/wrong" || fail "wrong tiles and image errors of a sequence: $?"
+[ "$(cat "$work/wrong")" -gt 0 ] || fail "EVR draws what was made to break it"
+
+# A technique that signs nothing, declared exact: the message says what is wrong and where it began.
+"$program" run --device tbr --scene frames/adversarial --plugin-dir "$plugins" --method tbr-unsigned \
+    -a launches=1 --no-report -q -o "$work/unsigned" 2>"$work/log" && fail "a wrong technique passed as exact"
+grep -q 'wrong_image,"declared exact, but [0-9]* tiles in [0-9]* of [0-9]* frames are not the baseline.s, the first in frame [0-9]*"' \
+    "$work/unsigned/summary.csv" || { cat "$work/unsigned/summary.csv"; fail "no wrong_image, or no frame"; }
 
 run --method tbr-base -a model=acumulate_cycles=2 -o "$work/typo" 2>"$work/log" && fail "a typo passed"
 grep -q "nearest is 'accumulate_cycles'" "$work/log" || { cat "$work/log"; fail "no nearest name"; }

@@ -112,7 +112,7 @@ static void summary_has_the_columns_of_the_design_in_order(void **state)
         "reference_ms,store_ms,resolve_ms,times_floor,bytes_allocated,bytes_predicted,bytes_used,"
         "fragments_generated,fragments_stored,fragments_lost,missing,extra,misordered,"
         "depth_ulp_max,rmse,psnr_db,max_abs,ssim,flip,truncation_rmse,distinct_images,"
-        "frame_wall_ms,fragments_per_s,tied_pixels\n");
+        "frame_wall_ms,fragments_per_s,tied_pixels,wrong_tiles\n");
     text_free(&header);
 }
 

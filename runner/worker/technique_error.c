@@ -1,0 +1,82 @@
+/* How far a technique's frames are from the baseline's, over the whole sequence. */
+#include <math.h>
+#include <string.h>
+
+#include "answer.h"
+#include "image_files.h"
+#include "technique_internal.h"
+
+/* A frame buffer is opaque: what it shows, as linear floats. */
+static fm_status float_image(fm_image **image, const technique_run *run, const uint32_t *pixels,
+                             fm_error *err)
+{
+    const size_t count = (size_t)run->sequence->width_px * run->sequence->height_px;
+    const fm_status status =
+        image_create(image, run->sequence->width_px, run->sequence->height_px, err);
+    for (size_t i = 0; status == FM_OK && i < count; i++) {
+        for (unsigned c = 0; c < 3; c++)
+            (*image)->rgba[4 * i + c] = (float)(pixels[i] >> 8 * c & 255) / 255.0f;
+        (*image)->rgba[4 * i + 3] = 1.0f;
+    }
+    return status;
+}
+
+/* The baseline keeps nothing from frame to frame, so it draws the wrong ones alone. */
+static fm_status draw_baseline(technique_run *run, const fm_frame *frame, uint32_t index,
+                               fm_error *err)
+{
+    const tbr_desc desc = { .width_px = run->sequence->width_px,
+                            .height_px = run->sequence->height_px };
+    fm_status status = run->baseline == NULL ? tbr_create(&run->baseline, &desc, err) : FM_OK;
+    if (status == FM_OK)
+        status = tbr_frame(run->baseline, frame, err);
+    if (status == FM_OK && technique_wrong_tiles(&run->truth, run->baseline, index) > 0)
+        status =
+            fm_fail(err, FM_IO, "%s: not the truth of this sequence: frame %u is drawn otherwise",
+                    run->job->truth, index);
+    return status;
+}
+
+static void add_error(technique_run *run, const fm_image_error *error)
+{
+    fm_image_error *sum = &run->error;
+    sum->rmse = sqrt(sum->rmse * sum->rmse + error->rmse * error->rmse);
+    sum->max_abs = fmax(sum->max_abs, error->max_abs);
+    sum->ssim += error->ssim;
+}
+
+fm_status technique_compare_frame(technique_run *run, const fm_frame *frame, uint32_t index,
+                                  fm_error *err)
+{
+    fm_image *ours = NULL, *right = NULL;
+    fm_image_error error = { 0 };
+    const bool is_first = run->outcome.wrong_frames == 1;
+    fm_status status = draw_baseline(run, frame, index, err);
+    if (status == FM_OK)
+        status = float_image(&ours, run, tbr_image(run->gpu), err);
+    if (status == FM_OK)
+        status = float_image(&right, run, tbr_image(run->baseline), err);
+    if (status == FM_OK)
+        status = image_compare(&error, ours, right, err);
+    if (status == FM_OK && is_first)
+        status = image_files_write(run->job->image, ours, right, err);
+    if (status == FM_OK)
+        add_error(run, &error);
+    image_destroy(ours);
+    image_destroy(right);
+    return status;
+}
+
+/* Frames that are right have no error and an ssim of 1. */
+void technique_set_errors(technique_run *run)
+{
+    const double frames = run->outcome.frames;
+    const double right = frames - run->outcome.wrong_frames;
+    const double rmse = run->error.rmse / sqrt(frames);
+    answer_set_number(run->metrics, FM_METRIC_RMSE, rmse);
+    answer_set_number(run->metrics, FM_METRIC_PSNR_DB, rmse > 0 ? -20 * log10(rmse) : INFINITY);
+    answer_set_number(run->metrics, FM_METRIC_MAX_ABS, run->error.max_abs);
+    answer_set_number(run->metrics, FM_METRIC_SSIM, (run->error.ssim + right) / frames);
+    answer_set_count(run->metrics, FM_METRIC_WRONG_TILES, run->outcome.wrong_tiles);
+    answer_set_count(run->metrics, FM_METRIC_WRONG_FRAMES, run->outcome.wrong_frames);
+}
