@@ -30,7 +30,9 @@
  *
  * Tiles. The pixels whose centres lie in a triangle's box (borders included) and on the screen make
  * its pixel box. The triangle overlaps the tiles that the pixel box touches, without those where
- * for one edge none of the tile's 256 pixel centres (on the screen or not) has E >= 0. */
+ * for one edge none of the tile's 256 pixel centres (on the screen or not) is inside: E is positive
+ * there, or zero where coverage takes zero. So a triangle overlaps every tile that it has a pixel
+ * in, and no tile of which an edge only meets centres that count as outside. */
 #ifndef FM_FRAMES_H
 #define FM_FRAMES_H
 
