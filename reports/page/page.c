@@ -151,6 +151,11 @@ static bool is_unstable(const fm_case_row *result)
     return result->is_measured && result->metric[FM_METRIC_DISTINCT_IMAGES] > 1;
 }
 
+static bool is_empty(const fm_case_row *result)
+{
+    return result->is_ok && strstr(result->message, FM_NOTHING_DRAWN) != NULL;
+}
+
 static void add_note(fm_text *page, const fm_result_files *results,
                      bool (*wanted)(const fm_case_row *result), const char *sentence)
 {
@@ -182,6 +187,9 @@ void page_add_notes(fm_text *page, const fm_result_files *results)
     add_note(page, results, is_single_launch,
              "One launch only: intervals do not show how launches differ.");
     add_note(page, results, is_unstable, "Launches drew different pictures of the same case.");
+    add_note(page, results, is_empty,
+             "Cases in which nothing was drawn: no fragment lies in their pictures. They are ok, "
+             "for an empty picture is right, but their times are those of empty frames.");
     if (any_stand_in(results))
         text_add(page, "<p>Scenes called a stand-in are generated with the properties that the "
                        "paper prints; they are not the paper's models.</p>\n");

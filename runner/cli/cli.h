@@ -135,8 +135,8 @@ typedef struct cli_run_desc {
 } cli_run_desc;
 /* The plan is run, reported and summed up. */
 int cli_run_plan(const fm_arguments *arguments, const cli_run_desc *desc);
-/* A line for each reason why cases of the run in this folder are not ok, each once, the first few.
- */
+/* A line for each reason why cases of the run in this folder are not ok, then one for each message
+ * of those that are, each once, the first few. */
 void cli_reasons(FILE *talk, const char *directory);
 /* -o, or out-UTC. */
 void cli_directory(char directory[FM_PATH_MAX_BYTES], const fm_arguments *arguments);

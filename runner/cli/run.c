@@ -103,8 +103,7 @@ static void sum_up(const fm_arguments *arguments, const fm_run_result *result,
     if (result->skipped > 0)
         fprintf(talk, ", %u not finished", result->skipped);
     fputc('\n', talk);
-    if (result->not_supported + result->failed > 0)
-        cli_reasons(talk, desc->directory);
+    cli_reasons(talk, desc->directory);
 }
 
 static fm_status keep_memory(const cli_run_desc *desc, fm_error *err)

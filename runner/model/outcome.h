@@ -18,6 +18,9 @@ typedef enum fm_case_status {
     FM_CASE_STATUS_COUNT
 } fm_case_status;
 
+/* What the message of a case says, perhaps among others, if its picture has no fragment at all. */
+#define FM_NOTHING_DRAWN "nothing was drawn: no fragment lies in the picture"
+
 const char *case_status_name(fm_case_status status);
 /* false: no such word, or NULL. */
 bool case_status_parse(fm_case_status *status, const char *name);

@@ -53,6 +53,7 @@ static void count_frame(technique_run *run, uint32_t index, uint64_t wrong)
     answer_add_sample(run->samples, index, FM_METRIC_FRAME_FRAGMENTS_SHADED,
                       (double)counts->fragments_shaded);
     answer_add_sample(run->samples, index, FM_METRIC_FRAME_WRONG_TILES, (double)wrong);
+    run->outcome.fragments += counts->fragments_rasterised;
     if (index == 0)
         return;
     counters_add(&run->sum, counts);

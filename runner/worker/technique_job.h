@@ -32,6 +32,7 @@ typedef struct fm_technique_job {
 /* What became of a sequence. */
 typedef struct fm_technique_outcome {
     uint32_t frames;
+    uint64_t fragments;   /* rasterised, of all frames with the first */
     uint64_t wrong_tiles; /* of all frames: their colours are not the baseline's */
     uint32_t wrong_frames, first_wrong_frame; /* frames with such a tile, counted from 0 */
 } fm_technique_outcome;

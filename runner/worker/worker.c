@@ -1,6 +1,7 @@
 #include "worker.h"
 
 #include <inttypes.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -193,6 +194,21 @@ static bool is_wrong(launch_job *job)
     return is_image_wrong(job);
 }
 
+/* What is to be known of a result beside its numbers; notes stand one after the other. */
+__attribute__((format(printf, 2, 3))) static void note(launch_job *job, const char *format, ...)
+{
+    char *message = job->error.message;
+    const size_t room = sizeof job->error.message, length = strlen(message);
+    const int separator = snprintf(message + length, room - length, length > 0 ? "; " : "");
+    const size_t begin = length + (size_t)separator;
+    va_list values;
+    if (begin >= room)
+        return;
+    va_start(values, format);
+    vsnprintf(message + begin, room - begin, format, values);
+    va_end(values);
+}
+
 /* Frames: the simulated GPU runs the whole sequence; a truth job has no method, the baseline. */
 static fm_status frames_job(launch_job *job)
 {
@@ -210,6 +226,8 @@ static fm_status frames_job(launch_job *job)
     if (status == FM_OK)
         status = technique_job_run(job->answer, &job->sequence, &desc, &job->error);
     job->is_truths = status == FM_IO && job->method != NULL;
+    if (status == FM_OK && job->sequence.fragments == 0)
+        note(job, "%s", FM_NOTHING_DRAWN);
     return status;
 }
 
@@ -294,6 +312,15 @@ static fm_status open_truth(launch_job *job)
     return status;
 }
 
+static void add_notes(launch_job *job)
+{
+    if (job->truth->fragment_count == 0)
+        note(job, "%s", FM_NOTHING_DRAWN);
+    if (job->measurement.is_long)
+        note(job, "frames over 2 s: %u samples a launch, the interval is wide",
+             job->measurement.sample_count);
+}
+
 static fm_status measure_job(launch_job *job)
 {
     fm_status status = open_plugins(job);
@@ -320,9 +347,7 @@ static fm_status measure_job(launch_job *job)
                                    job->measurement.truth_image, &job->error);
     if (status != FM_OK)
         return status;
-    if (job->measurement.is_long)
-        fm_fail(&job->error, FM_OK, "frames over 2 s: %u samples a launch, the interval is wide",
-                job->measurement.sample_count);
+    add_notes(job);
     const fm_answer_desc answer = { .measurement = &job->measurement,
                                     .method = &job->desc,
                                     .settings = &job->settings,
@@ -333,14 +358,14 @@ static fm_status measure_job(launch_job *job)
 }
 
 /* A result's message tells what the validation found, unless there is worse to tell. */
-static void note_validation(launch_job *job)
+static void note_validation(launch_job *job, fm_case_status word)
 {
     const char *first = "";
-    if (job->device == NULL || !job->request->validation)
+    if (job->device == NULL || !job->request->validation || word != FM_CASE_OK)
         return;
     const uint32_t count = job->device->ops->validation_errors(job->device, &first);
-    if (count > 0 && job->error.message[0] == '\0')
-        fm_fail(&job->error, FM_OK, "validation: %u errors, the first: %s", count, first);
+    if (count > 0)
+        note(job, "validation: %u errors, the first: %s", count, first);
 }
 
 static void release(launch_job *job)
@@ -372,7 +397,7 @@ int worker_main(const char *request_path, const char *answer_path, const fm_devi
     if (status == FM_OK)
         status = job.request->is_truth_job ? truth_job(&job) : measure_job(&job);
     const fm_case_status word = case_status_of(&job, status);
-    note_validation(&job);
+    note_validation(&job, word);
     if (is_runs_fault(&job, status)) {
         answer_set_runs_fault(job.answer, job.error.message);
         if (job.is_truths)

@@ -213,6 +213,28 @@ static void right_sequence_has_no_error_and_no_picture(void **state)
     sequence_close(&made);
 }
 
+/* Counters leave the first frame out; whether anything was drawn is a question of all frames. */
+static void fragments_of_the_first_frame_count_as_drawn(void **state)
+{
+    (void)state;
+    static const struct {
+        test_sequence made;
+        bool is_drawn;
+    } rows[] = {
+        { { .frames = 3, .first_drawn = 3, .extra = UINT32_MAX }, false },
+        { { .frames = 3, .first_drawn = 3, .extra = 0 }, true },
+        { { .frames = 3, .first_drawn = 2, .extra = UINT32_MAX }, true },
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        test_sequence made = rows[i].made;
+        fm_technique_outcome outcome;
+        sequence_open(&made);
+        json_decref(judge(&outcome, &made, NULL));
+        assert_int_equal(outcome.fragments > 0, rows[i].is_drawn);
+        sequence_close(&made);
+    }
+}
+
 /* Launches are compared by it: a frame within the sequence must count. */
 static void image_hash_is_of_all_frames(void **state)
 {
@@ -260,6 +282,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_wrong_tile_within_a_sequence_shows),
         cmocka_unit_test(right_sequence_has_no_error_and_no_picture),
+        cmocka_unit_test(fragments_of_the_first_frame_count_as_drawn),
         cmocka_unit_test(image_hash_is_of_all_frames),
         cmocka_unit_test(truth_of_another_sequence_is_refused),
     };
