@@ -2,12 +2,15 @@
 #ifndef FM_CHECK_H
 #define FM_CHECK_H
 
+#include "loss.h"
 #include "scene/scene.h"
 
 /* Sums over all pixels. */
 typedef struct fm_check {
-    uint64_t captured; /* fragments handed over */
-    uint64_t missing;  /* depths of the wanted multiset that were not captured */
+    uint32_t traits;    /* given: the method's, FM_TRAIT_* */
+    fm_losses declared; /* of the missing ones, those that the traits excuse */
+    uint64_t captured;  /* fragments handed over */
+    uint64_t missing;   /* depths of the wanted multiset that were not captured */
     /* captured (depth, colour) pairs that the pixel does not have, or beyond the wanted count */
     uint64_t extra;
     uint64_t misordered;    /* neighbours in decreasing depth */

@@ -146,6 +146,7 @@ fm_status measure_check_fragments(fm_measurement *measurement, const fm_measure_
     fm_instance_desc capture = *desc->method;
     fm_instance *instance = NULL;
     fm_status status = create_checking(&check, desc, err);
+    measurement->check.traits = desc->method->method->traits;
     capture.is_capture = true;
     capture.capture_slots = check.slots;
     if (status == FM_OK)
