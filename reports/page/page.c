@@ -97,8 +97,8 @@ void page_add_guide(fm_text *page)
         "k avoids, and <b>rmse</b>, what the method itself loses: where depths tie, its distance "
         "to the nearest picture that any order of the tied fragments makes.",
         "<b>missing, extra, misordered</b> count fragments, not pixels. A method that claims to be "
-        "exact and is not has the status wrong_image; for methods published as approximate or racy "
-        "a wrong picture is a result.",
+        "exact and is not has the status wrong_image, but losses that it declares are excused; for "
+        "methods published as approximate or racy a wrong picture is a result.",
         "<b>The Pareto frontier</b> (&#9679; in tables) joins the cases that no other beats in "
         "both time and error. "
         "Controls do not compete for it.",

@@ -5,6 +5,8 @@
 #include "measure_internal.h"
 #include "truth/reference.h"
 
+enum { LOSSES = FM_TRAIT_LOSES_DEPTH_ONE | FM_TRAIT_LOSES_TIES };
+
 fm_status measure_read_image(fm_image **image, fm_stage *stage, fm_error *err)
 {
     const fm_scene *scene = stage->scene;
@@ -21,9 +23,12 @@ fm_status measure_read_image(fm_image **image, fm_stage *stage, fm_error *err)
 void frame_images_begin(frame_images *images, fm_measurement *measurement,
                         const fm_measure_desc *desc)
 {
-    const bool is_exact = (desc->method->method->traits & FM_TRAIT_EXACT) != 0;
-    *images = (frame_images){ .desc = desc };
+    const uint32_t traits = desc->method->method->traits;
+    const bool is_exact = (traits & FM_TRAIT_EXACT) != 0;
     measurement->may_differ = is_exact && truth_tied_pixels(desc->truth, UINT32_MAX) > 0;
+    /* With a declared loss an image is not what truth has, and yet not wrong. */
+    *images = (frame_images){ .desc = desc,
+                              .are_compared = measurement->may_differ && (traits & LOSSES) == 0 };
 }
 
 fm_status frame_images_settle(frame_images *images, fm_measurement *measurement, fm_error *err)
@@ -56,7 +61,7 @@ fm_status frame_images_add(frame_images *images, fm_measurement *measurement, fm
     if (status != FM_OK || is_known(measurement, measurement->image_hash))
         return status;
     measurement->image_hashes[measurement->distinct_images++] = measurement->image_hash;
-    if (!measurement->may_differ)
+    if (!images->are_compared)
         return FM_OK;
     if (images->count == FRAME_IMAGES_KEPT)
         status = frame_images_settle(images, measurement, err);

@@ -22,6 +22,7 @@ typedef struct frame_images {
     const fm_measure_desc *desc;
     fm_image *kept[FRAME_IMAGES_KEPT];
     uint32_t count;
+    bool are_compared;
 } frame_images;
 
 void frame_images_begin(frame_images *images, fm_measurement *measurement,

@@ -1,6 +1,5 @@
 #include "worker.h"
 
-#include <inttypes.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -15,6 +14,7 @@
 #include "plugin/plugin.h"
 #include "protocol.h"
 #include "technique_job.h"
+#include "verdict.h"
 
 /* Everything a launch holds. */
 typedef struct launch_job {
@@ -139,59 +139,6 @@ static fm_case_status verdict(const launch_job *job, fm_status status)
         break;
     }
     return is_plugins ? FM_CASE_PLUGIN_ERROR : FM_CASE_NOT_SUPPORTED;
-}
-
-/* Of an exact method: what its timed frames drew. Where no depths tie they all draw one image, and
- * that of launch 0 is checked; where some do, each different one is compared with truth. */
-static bool is_image_wrong(launch_job *job)
-{
-    const fm_measurement *m = &job->measurement;
-    const double allowed = measure_image_tolerance(job->truth->n);
-    const bool is_racy = (job->desc.traits & FM_TRAIT_RACY) != 0;
-    if (m->self_max_abs > allowed)
-        fm_fail(&job->error, FM_OK,
-                "declared exact, but the timed image is %.3g from its own fragments (%.2g is "
-                "allowed)",
-                m->self_max_abs, allowed);
-    else if (m->frames_max_abs > allowed)
-        fm_fail(&job->error, FM_OK,
-                "declared exact, but the image of a timed frame is %.3g from all that truth allows "
-                "(%.2g is allowed)",
-                m->frames_max_abs, allowed);
-    else if (!m->may_differ && !is_racy && m->distinct_images > 1)
-        fm_fail(&job->error, FM_OK, "declared exact, but its timed frames drew %u different images",
-                m->distinct_images);
-    else
-        return false;
-    return true;
-}
-
-/* An exact method is judged; of others wrong images are data. */
-static bool is_wrong(launch_job *job)
-{
-    const fm_measurement *m = &job->measurement;
-    const fm_technique_outcome *sequence = &job->sequence;
-    if (job->method == NULL)
-        return false;
-    if (sequence->wrong_tiles > 0 && (job->method->method->traits & FM_TRAIT_EXACT) != 0) {
-        fm_fail(&job->error, FM_OK,
-                "declared exact, but %" PRIu64 " tiles in %u of %u frames are not the baseline's, "
-                "the first in frame %u",
-                sequence->wrong_tiles, sequence->wrong_frames, sequence->frames,
-                sequence->first_wrong_frame);
-        return true;
-    }
-    if (m->image == NULL || (job->desc.traits & FM_TRAIT_EXACT) == 0)
-        return false;
-    if (m->check.missing + m->check.extra + m->check.misordered + m->lost > 0) {
-        fm_fail(&job->error, FM_OK,
-                "declared exact, but missing %" PRIu64 ", extra %" PRIu64 ", misordered %" PRIu64
-                ", lost %" PRIu64 " fragments in %" PRIu64 " pixels",
-                m->check.missing, m->check.extra, m->check.misordered, m->lost,
-                m->check.wrong_pixels);
-        return true;
-    }
-    return is_image_wrong(job);
 }
 
 /* What is to be known of a result beside its numbers; notes stand one after the other. */
@@ -381,10 +328,24 @@ static void release(launch_job *job)
     json_decref(job->answer);
 }
 
+static bool is_wrong(launch_job *job)
+{
+    const uint32_t traits = job->method->method->traits;
+    if (has_frames(job))
+        return verdict_frames_are_wrong(&job->error, &job->sequence, traits);
+    return verdict_is_wrong(&job->error, &job->measurement, traits, job->truth->n);
+}
+
 /* wrong_image, if the method finished and its image is wrong. */
 static fm_case_status case_status_of(launch_job *job, fm_status status)
 {
-    return status == FM_OK && is_wrong(job) ? FM_CASE_WRONG_IMAGE : verdict(job, status);
+    char loss[VERDICT_LOSS_BYTES];
+    if (status != FM_OK || job->method == NULL)
+        return verdict(job, status);
+    const bool wrong = is_wrong(job);
+    if (verdict_loss(loss, &job->measurement.check))
+        note(job, "%s", loss);
+    return wrong ? FM_CASE_WRONG_IMAGE : FM_CASE_OK;
 }
 
 int worker_main(const char *request_path, const char *answer_path, const fm_device_list *devices)

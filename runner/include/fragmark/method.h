@@ -50,11 +50,12 @@ enum {
 
 /* What is true of a method: any of these bits. Tests and reports hold it to them. */
 enum {
-    FM_TRAIT_EXACT = 1u << 0,        /* hands over exactly the wanted fragments, in order, always */
+    FM_TRAIT_EXACT = 1u << 0,        /* hands over exactly the wanted fragments, in order, always,
+                                        but for what it declares to lose */
     FM_TRAIT_BOUNDED = 1u << 1,      /* memory does not depend on the scene's fragments */
     FM_TRAIT_SORTED_INPUT = 1u << 2, /* right only if fragments arrive in depth order */
     FM_TRAIT_SORTS_IN_RESOLVE = 1u << 3, /* resolve sorts the fragments of a pixel */
-    FM_TRAIT_LOSES_DEPTH_ONE = 1u << 4,  /* a fragment at depth 1.0 is lost */
+    FM_TRAIT_LOSES_DEPTH_ONE = 1u << 4,  /* fragments at depth exactly 1.0 are lost */
     FM_TRAIT_LOSES_TIES = 1u << 5,       /* of equal depths only one survives */
     FM_TRAIT_RACY = 1u << 6,             /* concurrent fragments of a pixel may damage each other */
     FM_TRAIT_APPROXIMATE = 1u << 7,      /* published as an approximation; never with _EXACT */

@@ -1,0 +1,72 @@
+#include "verdict.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+
+static bool are_fragments_wrong(fm_error *err, const fm_measurement *m)
+{
+    const fm_losses *declared = &m->check.declared;
+    const uint64_t missing = m->check.missing - declared->at_depth_one - declared->of_ties;
+    if (missing + m->check.extra + m->check.misordered + m->lost == 0)
+        return false;
+    fm_fail(err, FM_OK,
+            "declared exact, but missing %" PRIu64 ", extra %" PRIu64 ", misordered %" PRIu64
+            ", lost %" PRIu64 " fragments in %" PRIu64 " pixels",
+            missing, m->check.extra, m->check.misordered, m->lost, m->check.wrong_pixels);
+    return true;
+}
+
+bool verdict_is_wrong(fm_error *err, const fm_measurement *measurement, uint32_t traits, uint32_t n)
+{
+    const double allowed = measure_image_tolerance(n);
+    if ((traits & FM_TRAIT_EXACT) == 0)
+        return false;
+    if (are_fragments_wrong(err, measurement))
+        return true;
+    if (measurement->self_max_abs > allowed)
+        fm_fail(err, FM_OK,
+                "declared exact, but the timed image is %.3g from its own fragments (%.2g is "
+                "allowed)",
+                measurement->self_max_abs, allowed);
+    else if (measurement->frames_max_abs > allowed)
+        fm_fail(err, FM_OK,
+                "declared exact, but the image of a timed frame is %.3g from all that truth allows "
+                "(%.2g is allowed)",
+                measurement->frames_max_abs, allowed);
+    else if (!measurement->may_differ && (traits & FM_TRAIT_RACY) == 0 &&
+             measurement->distinct_images > 1)
+        fm_fail(err, FM_OK, "declared exact, but its timed frames drew %u different images",
+                measurement->distinct_images);
+    else
+        return false;
+    return true;
+}
+
+bool verdict_frames_are_wrong(fm_error *err, const fm_technique_outcome *outcome, uint32_t traits)
+{
+    if ((traits & FM_TRAIT_EXACT) == 0 || outcome->wrong_tiles == 0)
+        return false;
+    fm_fail(err, FM_OK,
+            "declared exact, but %" PRIu64 " tiles in %u of %u frames are not the baseline's, "
+            "the first in frame %u",
+            outcome->wrong_tiles, outcome->wrong_frames, outcome->frames,
+            outcome->first_wrong_frame);
+    return true;
+}
+
+bool verdict_loss(char text[VERDICT_LOSS_BYTES], const fm_check *check)
+{
+    const uint64_t at_one = check->declared.at_depth_one, ties = check->declared.of_ties;
+    const char *const fragments = at_one + ties == 1 ? "fragment" : "fragments";
+    if (at_one > 0 && ties > 0)
+        snprintf(text, VERDICT_LOSS_BYTES,
+                 "declared loss: %" PRIu64 " fragments at depth 1, %" PRIu64 " of equal depths",
+                 at_one, ties);
+    else if (at_one > 0)
+        snprintf(text, VERDICT_LOSS_BYTES, "declared loss: %" PRIu64 " %s at depth 1", at_one,
+                 fragments);
+    else if (ties > 0)
+        snprintf(text, VERDICT_LOSS_BYTES, "declared loss: %" PRIu64 " %s of equal depths", ties,
+                 fragments);
+    return at_one + ties > 0;
+}

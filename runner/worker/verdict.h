@@ -1,0 +1,22 @@
+/* Whether a method that is declared exact was exact; of others wrong images are data. What its
+ * traits declare lost is excused, and nothing more. */
+#ifndef FM_VERDICT_H
+#define FM_VERDICT_H
+
+#include "measure.h"
+#include "technique_job.h"
+
+enum { VERDICT_LOSS_BYTES = 128 };
+
+/* What a launch measured, and what its frames drew; if it was checked, its fragments, too. Where no
+ * depths tie all frames draw one image, and that of launch 0 is checked; where some do, each
+ * different one was compared with truth. traits: the method's; n: the most fragments of any pixel. Why it
+ * is wrong goes to *err, whose status is FM_OK. */
+bool verdict_is_wrong(fm_error *err, const fm_measurement *measurement, uint32_t traits,
+                      uint32_t n);
+/* The same of a technique's sequence. */
+bool verdict_frames_are_wrong(fm_error *err, const fm_technique_outcome *outcome, uint32_t traits);
+/* "declared loss: 3 fragments at depth 1, 2 of equal depths"; false: none was lost. */
+bool verdict_loss(char text[VERDICT_LOSS_BYTES], const fm_check *check);
+
+#endif
