@@ -10,8 +10,8 @@ enum { VERDICT_LOSS_BYTES = 128 };
 
 /* What a launch measured, and what its frames drew; if it was checked, its fragments, too. Where no
  * depths tie all frames draw one image, and that of launch 0 is checked; where some do, each
- * different one was compared with truth. traits: the method's; n: the most fragments of any pixel. Why it
- * is wrong goes to *err, whose status is FM_OK. */
+ * different one was compared with truth. traits: the method's; n: the most fragments of any pixel.
+ * Why it is wrong goes to *err, whose status is FM_OK. */
 bool verdict_is_wrong(fm_error *err, const fm_measurement *measurement, uint32_t traits,
                       uint32_t n);
 /* The same of a technique's sequence. */
