@@ -78,11 +78,13 @@ void page_add_guide(fm_text *page)
 {
     static const char *const sentences[] = {
         "<b>frame_ms</b> is the sum of a method's GPU passes (with timers=frame: one time for all, "
-        "and none of each), the median of all samples of all launches. A launch is a process of "
+        "and none of each), the median of the launches' medians. A launch is a process of "
         "its own; launches of all methods take turns, so that a "
         "drift of the machine meets all alike.",
-        "<b>Intervals</b> hold the median with 95 % confidence (bootstrap over launches, then over "
-        "the samples of each). Two methods whose intervals overlap are not told apart by this run.",
+        "<b>Intervals</b> hold the median with 95 % confidence. They are made of launches, each of "
+        "which counts as one number, the median of its frames. One launch has no interval, however "
+        "many frames it has, and decides no claim on a time; of two launches it is very wide. "
+        "Two methods whose intervals overlap are not told apart by this run.",
         "<b>The floor</b> is a method that consumes every fragment and stores none. <b>&times; "
         "floor</b> is a method's store time over the floor's (with timers=frame: frame time over "
         "frame time), measured in the same process: 1 is "

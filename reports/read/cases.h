@@ -23,6 +23,8 @@ typedef struct fm_case_row {
     /* By fm_metric; NAN for those that summary.csv has no column for, but total_rmse, which is from
      * samples.csv, or rmse where the run has none. */
     double metric[FM_METRIC_COUNT];
+    /* Ends of its interval, the same: NAN where one launch has none, or the file has no column. */
+    double low[FM_METRIC_COUNT], high[FM_METRIC_COUNT];
 
     /* what follows from the row and from manifest.json */
     fm_case_status outcome; /* of the word `status` */

@@ -39,7 +39,8 @@ static const char *files(const fm_metric_info *info)
         return "none";
     if (info->of == FM_OF_FRAME)
         return has_column ? "samples, median in summary" : "samples";
-    return has_column ? "summary" : "samples, without launch and frame";
+    return has_column || info->of == FM_OF_SUMMARY ? "summary"
+                                                   : "samples, without launch and frame";
 }
 
 void list_metrics_markdown(FILE *out)

@@ -29,20 +29,22 @@ typedef enum fm_fact {
 #define FM_SUMMARY_SCHEMA "1"
 
 typedef enum fm_column_kind {
-    FM_COLUMN_FACT,  /* text */
-    FM_COLUMN_KEY,   /* a key's value, empty where the scene or method does not use it */
-    FM_COLUMN_METRIC /* a number, empty where it does not apply */
+    FM_COLUMN_FACT,   /* text */
+    FM_COLUMN_KEY,    /* a key's value, empty where the scene or method does not use it */
+    FM_COLUMN_METRIC, /* a number, empty where it does not apply */
+    FM_COLUMN_LOW,    /* lower end of the 95 % interval of a metric; empty: of one launch */
+    FM_COLUMN_HIGH    /* upper end of it */
 } fm_column_kind;
 
 typedef struct fm_column {
     fm_column_kind kind;
     fm_fact fact;
-    const char *key; /* name of a key */
+    const char *name; /* of a key; of an interval's end: the metric's with _low or _high */
     fm_metric metric;
 } fm_column;
 
 enum {
-    FM_COLUMN_COUNT = 51,
+    FM_COLUMN_COUNT = 67,
     FM_COLUMN_REQUIRED =
         51 /* the first of them: files of schema 1 have these, later ones may lack */
 };

@@ -16,11 +16,11 @@ typedef struct row_state {
     const fm_case *measured;
     const fm_case_result *result;
     const fm_plugin_entry *plugin; /* may be NULL */
-    fm_interval frame_ms;
-    size_t samples, excluded; /* frames used and left out */
-    const bool *is_off_clock; /* [launch * frames + frame] */
-    double *values;           /* room for all samples */
+    size_t samples, excluded;      /* frames used and left out */
+    const bool *is_off_clock;      /* [launch * frames + frame] */
+    double *values;                /* room for all samples */
     uint32_t *groups;
+    double *ratios; /* room for all launches */
 } row_state;
 
 static bool is_used(const row_state *row, const fm_kept_sample *sample)
@@ -30,7 +30,7 @@ static bool is_used(const row_state *row, const fm_kept_sample *sample)
            !row->is_off_clock[(size_t)sample->launch * frames + sample->frame];
 }
 
-/* Gathers one metric's used samples of one launch, or of all with launch = UINT32_MAX. */
+/* Gathers one metric's used samples of one launch, or of all. */
 static size_t gather(const row_state *row, fm_metric metric, uint32_t launch)
 {
     size_t count = 0;
@@ -48,6 +48,13 @@ static size_t gather(const row_state *row, fm_metric metric, uint32_t launch)
 static double median_of(const row_state *row, fm_metric metric, uint32_t launch)
 {
     return stats_median(row->values, gather(row, metric, launch));
+}
+
+static fm_interval interval_of_frames(const row_state *row, fm_metric metric)
+{
+    const size_t count = gather(row, metric, UINT32_MAX);
+    return stats_by_launch(
+        &(fm_samples){ row->values, row->groups, count, row->results->plan->launches });
 }
 
 static const char *method_version(const row_state *row)
@@ -180,23 +187,39 @@ static void write_fact(fm_text *text, const row_state *row, fm_fact fact)
 
 /* Store time, or the frame's where that is all that is timed, over the floor's, launch by launch:
  * both ran in one process, moments apart. */
-static void write_times_floor(fm_text *text, const row_state *row)
+static fm_interval times_floor(const row_state *row)
 {
     const bool is_span = row->measured->settings.timers == FM_TIMERS_FRAME;
     size_t count = 0;
-    double *ratios = calloc(row->results->plan->launches, sizeof *ratios);
-    for (uint32_t i = 0; ratios != NULL && i < row->results->plan->launches; i++) {
+    for (uint32_t i = 0; i < row->results->plan->launches; i++) {
         const double ms = median_of(row, is_span ? FM_METRIC_FRAME_MS : FM_METRIC_STORE_MS, i);
         const double floor_ms =
             median_of(row, is_span ? FM_METRIC_FLOOR_FRAME_MS : FM_METRIC_FLOOR_STORE_MS, i);
         if (!isnan(ms) && floor_ms > 0.0)
-            ratios[count++] = ms / floor_ms;
+            row->ratios[count++] = ms / floor_ms;
     }
-    if (ratios == NULL)
-        text->failed = true;
-    else
-        csv_add_real(text, stats_median(ratios, count));
-    free(ratios);
+    return stats_interval(row->ratios, count);
+}
+
+/* The slowest frame has the lowest rate. */
+static fm_interval fragments_per_s(const row_state *row)
+{
+    const json_t *fragments = metric_of(row, FM_METRIC_FRAGMENTS_GENERATED);
+    const fm_interval ms = interval_of_frames(row, FM_METRIC_FRAME_MS);
+    if (!json_is_number(fragments) || !(ms.median > 0.0))
+        return (fm_interval){ NAN, NAN, NAN };
+    const double per_ms = json_number_value(fragments) * 1e3;
+    return (fm_interval){ per_ms / ms.median, per_ms / ms.high, per_ms / ms.low };
+}
+
+/* A metric that has an interval, in the columns beside it. */
+static fm_interval interval_of(const row_state *row, fm_metric metric)
+{
+    if (metric == FM_METRIC_TIMES_FLOOR)
+        return times_floor(row);
+    if (metric == FM_METRIC_FRAGMENTS_PER_S)
+        return fragments_per_s(row);
+    return interval_of_frames(row, metric);
 }
 
 static void write_distinct_images(fm_text *text, const row_state *row)
@@ -213,13 +236,6 @@ static void write_distinct_images(fm_text *text, const row_state *row)
         text_add(text, "%u", distinct);
 }
 
-static void write_rate(fm_text *text, const row_state *row)
-{
-    const json_t *fragments = metric_of(row, FM_METRIC_FRAGMENTS_GENERATED);
-    if (json_is_number(fragments) && row->frame_ms.median > 0.0)
-        csv_add_real(text, json_number_value(fragments) / (row->frame_ms.median / 1e3));
-}
-
 /* What follows from all launches of a case. */
 static void write_summary_metric(fm_text *text, const row_state *row, fm_metric metric)
 {
@@ -227,23 +243,17 @@ static void write_summary_metric(fm_text *text, const row_state *row, fm_metric 
         text_add(text, "%u", row->result->done);
     else if (metric == FM_METRIC_SAMPLES)
         text_add(text, "%zu", row->samples);
-    else if (metric == FM_METRIC_FRAME_MS_LOW)
-        csv_add_real(text, row->frame_ms.low);
-    else if (metric == FM_METRIC_FRAME_MS_HIGH)
-        csv_add_real(text, row->frame_ms.high);
-    else if (metric == FM_METRIC_TIMES_FLOOR)
-        write_times_floor(text, row);
     else if (metric == FM_METRIC_DISTINCT_IMAGES)
         write_distinct_images(text, row);
-    else if (metric == FM_METRIC_FRAGMENTS_PER_S)
-        write_rate(text, row);
+    else
+        csv_add_real(text, interval_of(row, metric).median);
 }
 
 static void write_metric(fm_text *text, const row_state *row, fm_metric metric)
 {
     switch (fm_metrics[metric].of) {
     case FM_OF_FRAME:
-        csv_add_real(text, median_of(row, metric, UINT32_MAX));
+        csv_add_real(text, interval_of(row, metric).median);
         break;
     case FM_OF_CASE:
         write_case_metric(text, row, metric);
@@ -263,10 +273,16 @@ static void write_column(fm_text *text, const row_state *row, const fm_column *c
         write_fact(text, row, column->fact);
         break;
     case FM_COLUMN_KEY:
-        write_key(text, row, column->key);
+        write_key(text, row, column->name);
         break;
     case FM_COLUMN_METRIC:
         write_metric(text, row, column->metric);
+        break;
+    case FM_COLUMN_LOW:
+        csv_add_real(text, interval_of(row, column->metric).low);
+        break;
+    case FM_COLUMN_HIGH:
+        csv_add_real(text, interval_of(row, column->metric).high);
         break;
     }
 }
@@ -332,15 +348,14 @@ void summary_row(fm_text *text, const fm_results *results, size_t case_index)
         .is_off_clock = is_off_clock,
         .values = calloc(room, sizeof(double)),
         .groups = calloc(room, sizeof(uint32_t)),
+        .ratios = calloc((size_t)plan->launches + 1, sizeof(double)),
     };
-    if (is_off_clock == NULL || row.values == NULL || row.groups == NULL) {
+    if (is_off_clock == NULL || row.values == NULL || row.groups == NULL || row.ratios == NULL) {
         text->failed = true;
         goto out;
     }
     summary_off_clock(is_off_clock, results, case_index);
     count_frames(&row);
-    const fm_samples samples = { row.values, row.groups, row.samples, plan->launches };
-    row.frame_ms = stats_bootstrap(&samples, plan->seed);
     for (int i = 0; i < FM_COLUMN_COUNT; i++) {
         write_column(text, &row, &fm_columns[i]);
         text_add(text, i + 1 < FM_COLUMN_COUNT ? "," : "\n");
@@ -349,4 +364,5 @@ out:
     free(is_off_clock);
     free(row.values);
     free(row.groups);
+    free(row.ratios);
 }
