@@ -5,6 +5,7 @@
 #define LESS     .better = FM_BETTER_LESS
 #define MORE     .better = FM_BETTER_MORE
 #define FRAME    .of = FM_OF_FRAME
+#define LAUNCH   .of = FM_OF_LAUNCH
 #define CASE     .of = FM_OF_CASE
 #define SUMMARY  .of = FM_OF_SUMMARY
 #define REPORT   .of = FM_OF_REPORT
@@ -134,6 +135,30 @@ const fm_metric_info fm_metrics[FM_METRIC_COUNT] = {
         "fragments that were shaded", FRAME, LESS },
     [FM_METRIC_FRAME_WRONG_TILES] = { "frame.wrong_tiles", "wrong tiles in a frame", "",
         "tiles whose colours are not the baseline's", FRAME, LESS },
+    [FM_METRIC_LAUNCH_CPU_S] = { "launch_cpu_s", "processor time of the launch", "s",
+        "user and system time of the launch's process", LAUNCH, LESS, TIMED },
+    [FM_METRIC_TIMED_S] = { "timed_s", "timed part", "s",
+        "how long the timed frames took, the floor's too, by the host's clock", LAUNCH, LESS, TIMED },
+    [FM_METRIC_TIMED_CPU_S] = { "timed_cpu_s", "processor time of the timed part", "s",
+        "user and system time of the process meanwhile", LAUNCH, LESS, TIMED },
+    [FM_METRIC_WAITED_S] = { "waited_s", "waited for a processor", "s",
+        "how long, in sum, threads of the process stood ready meanwhile and had no processor", LAUNCH,
+        LESS, TIMED },
+    [FM_METRIC_OTHERS_CPU_S] = { "others_cpu_s", "processor time of others", "s",
+        "what all other processes used meanwhile, and what a hypervisor took", LAUNCH, LESS, TIMED },
+    [FM_METRIC_INVOLUNTARY_SWITCHES] = { "involuntary_switches", "involuntary switches", "",
+        "how often a thread of the process lost its processor meanwhile", LAUNCH, LESS, MEASURED },
+    [FM_METRIC_LOAD_BEGIN] = { "load_begin", "load before", "",
+        "load average of the last minute before the timed frames: threads that ran or were ready",
+        LAUNCH, LESS, MEASURED },
+    [FM_METRIC_LOAD_END] = { "load_end", "load after", "", "the same after them", LAUNCH, LESS, MEASURED },
+    [FM_METRIC_THROTTLED_S] = { "throttled_s", "throttled", "s",
+        "how long the control group's limit stopped its processes meanwhile", LAUNCH, LESS, TIMED },
+    [FM_METRIC_THERMAL_EVENTS] = { "thermal_events", "thermal events", "",
+        "how often a processor was slowed down for heat meanwhile", LAUNCH, LESS, MEASURED },
+    [FM_METRIC_CLOCK_SHARE] = { "clock_share", "share of the clock", "",
+        "clock of the slowest processor over the highest, after the timed frames", LAUNCH, MORE,
+        MEASURED },
 };
 
 const fm_metric_family fm_metric_families[FM_METRIC_FAMILY_COUNT] = {

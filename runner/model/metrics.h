@@ -80,6 +80,18 @@ typedef enum fm_metric {
     FM_METRIC_FRAME_TILES_SKIPPED,
     FM_METRIC_FRAME_FRAGMENTS_SHADED,
     FM_METRIC_FRAME_WRONG_TILES,
+    /* how busy the host was, of each launch */
+    FM_METRIC_LAUNCH_CPU_S,
+    FM_METRIC_TIMED_S,
+    FM_METRIC_TIMED_CPU_S,
+    FM_METRIC_WAITED_S,
+    FM_METRIC_OTHERS_CPU_S,
+    FM_METRIC_INVOLUNTARY_SWITCHES,
+    FM_METRIC_LOAD_BEGIN,
+    FM_METRIC_LOAD_END,
+    FM_METRIC_THROTTLED_S,
+    FM_METRIC_THERMAL_EVENTS,
+    FM_METRIC_CLOCK_SHARE,
     FM_METRIC_COUNT
 } fm_metric;
 
@@ -92,6 +104,7 @@ typedef enum fm_better {
 /* What one value of a metric belongs to, and so where it stands. */
 typedef enum fm_metric_of {
     FM_OF_FRAME,   /* a timed frame of a launch: rows of samples.csv; summary.csv has the median */
+    FM_OF_LAUNCH,  /* a launch: rows of samples.csv without a frame */
     FM_OF_CASE,    /* a case: summary.csv, or a row of samples.csv without launch and frame */
     FM_OF_SUMMARY, /* a case, from all its launches: summary.csv alone */
     FM_OF_REPORT   /* a case, worked out when it is charted: no file has it */

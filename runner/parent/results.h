@@ -13,7 +13,10 @@
 #include "model/outcome.h"
 #include "plan/plan.h"
 
-/* One value of a metric of a frame (FM_OF_FRAME). Those of families only pass into samples.csv. */
+/* The frame of a number that holds for a launch as a whole (FM_OF_LAUNCH). */
+#define FM_FRAME_NONE UINT32_MAX
+
+/* One value of a metric of a frame or launch. Those of families only pass into samples.csv. */
 typedef struct fm_kept_sample {
     double value;
     uint32_t launch, frame;

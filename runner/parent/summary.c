@@ -261,6 +261,7 @@ static void write_metric(fm_text *text, const row_state *row, fm_metric metric)
     case FM_OF_SUMMARY:
         write_summary_metric(text, row, metric);
         break;
+    case FM_OF_LAUNCH:
     case FM_OF_REPORT:
         break;
     }

@@ -106,6 +106,7 @@ static fm_status take_samples(fm_measurement *measurement, const launch_pair *pa
         is_long = i > 0 && ignored.wall_ns > MEASURE_LONG_FRAME_NS;
     }
     measurement->lost = 0;
+    host_load_read(&measurement->begin, "");
     for (uint32_t i = 0; i < desc->frames && status == FM_OK; i++) {
         fm_sample *sample = &measurement->samples[i];
         if (is_long && i >= LONG_FRAME_SAMPLES)
@@ -114,6 +115,7 @@ static fm_status take_samples(fm_measurement *measurement, const launch_pair *pa
         is_long = is_long || sample->wall_ns > MEASURE_LONG_FRAME_NS;
         measurement->sample_count = i + 1;
     }
+    host_load_read(&measurement->end, "");
     measurement->is_long = is_long;
     return status;
 }

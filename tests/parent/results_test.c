@@ -292,6 +292,23 @@ static void samples_are_kept_with_metrics_that_have_no_column(void **state)
     fake_close(&fake);
 }
 
+static void numbers_of_a_launch_are_rows_without_a_frame(void **state)
+{
+    (void)state;
+    fake_plan fake;
+    fm_results *results = created(&fake, 1);
+    json_t *answer =
+        json_pack("{s:s, s:{s:f, s:i}}", "status", "ok", "launch", "waited_s", 0.25, "load_end", 7);
+    assert_int_equal(results_add(results, 0, 0, answer, NULL), FM_OK);
+    json_decref(answer);
+    char *samples = fake_read(&fake, "samples.csv");
+    assert_non_null(strstr(samples, "1,run,0000000000000001,0,,waited_s,0.25,s\n"
+                                    "1,run,0000000000000001,0,,load_end,7,\n"));
+    free(samples);
+    results_destroy(results);
+    fake_close(&fake);
+}
+
 static void a_case_has_the_worst_status_of_its_launches(void **state)
 {
     (void)state;
@@ -347,6 +364,7 @@ int main(void)
         cmocka_unit_test(summary_options_name_what_is_not_as_usual),
         cmocka_unit_test(summary_excludes_samples_off_full_clock),
         cmocka_unit_test(samples_are_kept_with_metrics_that_have_no_column),
+        cmocka_unit_test(numbers_of_a_launch_are_rows_without_a_frame),
         cmocka_unit_test(a_case_has_the_worst_status_of_its_launches),
         cmocka_unit_test(skipped_cases_tell_refusal_from_missing_support),
     };
