@@ -77,6 +77,18 @@ static bool has_message(const fm_group *group)
     return false;
 }
 
+/* One of the known words, and a mark with its reason where the times cannot be relied on. */
+static void add_status(fm_text *page, const fm_case_row *result)
+{
+    text_add(page, "<td>%s", result->status);
+    if (result->noisy[0] != '\0') {
+        text_add(page, " <mark title=\"");
+        html_add(page, result->noisy);
+        text_add(page, "\">noisy</mark>");
+    }
+    text_add(page, "</td>");
+}
+
 static void add_row(fm_text *page, const fm_group *group, size_t index, bool on_frontier)
 {
     const fm_case_row *result = group->cases[index];
@@ -91,7 +103,7 @@ static void add_row(fm_text *page, const fm_group *group, size_t index, bool on_
     text_add(page, "</td>");
     html_add_number(page, 8, result->k);
     html_add_number(page, 8, result->metric[FM_METRIC_N]);
-    text_add(page, "<td>%s</td>", result->status); /* one of the known words */
+    add_status(page, result);
     add_interval(page, result, FM_METRIC_FRAME_MS, 4);
     add_interval(page, result, FM_METRIC_TIMES_FLOOR, 3);
     add_memory(page, result);

@@ -18,6 +18,7 @@ static const size_t fact_at[FM_FACT_COUNT] = {
     [FM_FACT_FEED] = offsetof(fm_case_row, feed),
     [FM_FACT_SCENE] = offsetof(fm_case_row, scene),
     [FM_FACT_OPTIONS] = offsetof(fm_case_row, options),
+    [FM_FACT_NOISY] = offsetof(fm_case_row, noisy),
 };
 
 #define KEY(field, text)                                                                           \

@@ -18,6 +18,7 @@ typedef struct fm_case_row {
     const char *id; /* at most 64 bytes, without '/': names of pictures are made from it */
     const char *status, *message, *method, *method_version, *device, *device_name, *feed;
     const char *scene, *order, *seed, *options; /* options: read by options.h */
+    const char *noisy; /* why its times are not to be relied on; "": no reason is known */
     /* the workload; k is NAN for methods that keep no k nearest */
     double width_px, height_px, k, r, pixel_density, fragment_probability, tessellation;
     /* By fm_metric; NAN for those that summary.csv has no column for, but total_rmse, which is from

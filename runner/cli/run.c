@@ -1,5 +1,6 @@
 #include "parent/run.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -88,6 +89,19 @@ static int exit_code(const fm_run_result *result, const fm_plan *plan)
     return result->ok > 0 || plan->count == 0 ? CLI_DONE : CLI_NOTHING;
 }
 
+/* Whoever reads a time must know what it was measured beside. */
+static void tell_noise(FILE *talk, const fm_run_result *result)
+{
+    fprintf(talk, "NOISY: %u of the rows cannot be relied on (column noisy)", result->noisy);
+    if (!isnan(result->waited_share))
+        fprintf(talk, "; threads waited for a processor %.0f %% of the time",
+                100.0 * result->waited_share);
+    if (!isnan(result->load))
+        fprintf(talk, ", load average up to %.1f on %ld processors", result->load,
+                sysconf(_SC_NPROCESSORS_ONLN));
+    fputc('\n', talk);
+}
+
 static void sum_up(const fm_arguments *arguments, const fm_run_result *result,
                    const cli_run_desc *desc)
 {
@@ -103,6 +117,8 @@ static void sum_up(const fm_arguments *arguments, const fm_run_result *result,
     if (result->skipped > 0)
         fprintf(talk, ", %u not finished", result->skipped);
     fputc('\n', talk);
+    if (result->noisy > 0)
+        tell_noise(talk, result);
     if (result->not_supported + result->failed > 0)
         cli_reasons(talk, desc->directory);
 }

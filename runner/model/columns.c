@@ -80,6 +80,7 @@ const fm_column fm_columns[] = {
     ENDS(TIMES_FLOOR, "times_floor"),
     ENDS(FRAME_WALL_MS, "frame_wall_ms"),
     ENDS(FRAGMENTS_PER_S, "fragments_per_s"),
+    FACT(NOISY),
 };
 /* clang-format on */
 _Static_assert(sizeof fm_columns / sizeof fm_columns[0] == FM_COLUMN_COUNT, "FM_COLUMN_COUNT");
@@ -90,7 +91,7 @@ static const char *const fact_name[] = {
     [FM_FACT_METHOD] = "method",   [FM_FACT_METHOD_VERSION] = "method_version",
     [FM_FACT_DEVICE] = "device",   [FM_FACT_DEVICE_NAME] = "device_name",
     [FM_FACT_FEED] = "feed",       [FM_FACT_SCENE] = "scene",
-    [FM_FACT_OPTIONS] = "options",
+    [FM_FACT_OPTIONS] = "options", [FM_FACT_NOISY] = "noisy",
 };
 _Static_assert(sizeof fact_name / sizeof fact_name[0] == FM_FACT_COUNT, "one name a fact");
 

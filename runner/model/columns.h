@@ -23,6 +23,7 @@ typedef enum fm_fact {
     FM_FACT_SCENE,          /* its name, or the path of its file */
     FM_FACT_OPTIONS,        /* "key=value ...": a method's own, and keys off their default that have
                                no column */
+    FM_FACT_NOISY,          /* why its times are not to be relied on; empty: no reason is known */
     FM_FACT_COUNT
 } fm_fact;
 
@@ -44,7 +45,7 @@ typedef struct fm_column {
 } fm_column;
 
 enum {
-    FM_COLUMN_COUNT = 67,
+    FM_COLUMN_COUNT = 68,
     FM_COLUMN_REQUIRED =
         51 /* the first of them: files of schema 1 have these, later ones may lack */
 };

@@ -78,5 +78,7 @@ void summary_off_clock(bool *is_off_clock, const fm_results *results, size_t cas
 /* The names of the columns, and one row; both with their end of line. */
 void summary_header(fm_text *text);
 void summary_row(fm_text *text, const fm_results *results, size_t case_index);
+/* Column `noisy` of that row: noise.h. */
+void summary_noise(fm_text *text, const fm_results *results, size_t case_index);
 
 #endif

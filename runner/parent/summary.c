@@ -6,6 +6,7 @@
 #include "base/csv.h"
 #include "base/stats.h"
 #include "model/columns.h"
+#include "noise.h"
 #include "results.h"
 
 static const double clock_slack = 1.4; /* a canary above this many of the fastest is off clock */
@@ -17,10 +18,10 @@ typedef struct row_state {
     const fm_case_result *result;
     const fm_plugin_entry *plugin; /* may be NULL */
     size_t samples, excluded;      /* frames used and left out */
-    const bool *is_off_clock;      /* [launch * frames + frame] */
+    bool *is_off_clock;            /* [launch * frames + frame] */
     double *values;                /* room for all samples */
     uint32_t *groups;
-    double *ratios; /* room for all launches */
+    double *by_launch; /* room for all launches */
 } row_state;
 
 static bool is_used(const row_state *row, const fm_kept_sample *sample)
@@ -144,6 +145,23 @@ static void write_options(fm_text *text, const row_state *row)
     text_free(&all);
 }
 
+static void add_noise(fm_text *text, const row_state *row)
+{
+    const uint32_t launches = row->results->plan->launches;
+    for (uint32_t i = 0; i < launches; i++)
+        row->by_launch[i] = median_of(row, FM_METRIC_FRAME_MS, i);
+    noise_reasons(text, row->result, launches, row->by_launch);
+}
+
+static void write_noisy(fm_text *text, const row_state *row)
+{
+    fm_text reasons = { 0 };
+    add_noise(&reasons, row);
+    csv_add(text, reasons.bytes != NULL ? reasons.bytes : "");
+    text->failed = text->failed || reasons.failed;
+    text_free(&reasons);
+}
+
 static void write_fact(fm_text *text, const row_state *row, fm_fact fact)
 {
     switch (fact) {
@@ -180,6 +198,9 @@ static void write_fact(fm_text *text, const row_state *row, fm_fact fact)
     case FM_FACT_OPTIONS:
         write_options(text, row);
         break;
+    case FM_FACT_NOISY:
+        write_noisy(text, row);
+        break;
     case FM_FACT_COUNT:
         break;
     }
@@ -196,9 +217,9 @@ static fm_interval times_floor(const row_state *row)
         const double floor_ms =
             median_of(row, is_span ? FM_METRIC_FLOOR_FRAME_MS : FM_METRIC_FLOOR_STORE_MS, i);
         if (!isnan(ms) && floor_ms > 0.0)
-            row->ratios[count++] = ms / floor_ms;
+            row->by_launch[count++] = ms / floor_ms;
     }
-    return stats_interval(row->ratios, count);
+    return stats_interval(row->by_launch, count);
 }
 
 /* The slowest frame has the lowest rate. */
@@ -335,35 +356,56 @@ static void count_frames(row_state *row)
     row->excluded = all - row->samples;
 }
 
-void summary_row(fm_text *text, const fm_results *results, size_t case_index)
+/* false: no memory. close_row also then. */
+static bool open_row(row_state *row, const fm_results *results, size_t case_index)
 {
     const fm_plan *plan = results->plan;
     const fm_case_result *result = &results->cases[case_index];
     const size_t room = result->sample_count + 1;
-    bool *is_off_clock = calloc((size_t)plan->launches * plan->frames + 1, sizeof *is_off_clock);
-    row_state row = {
+    *row = (row_state){
         .results = results,
         .measured = &plan->cases[case_index],
         .result = result,
         .plugin = plugin_list_find(results->plugins, plan->cases[case_index].method),
-        .is_off_clock = is_off_clock,
+        .is_off_clock = calloc((size_t)plan->launches * plan->frames + 1, sizeof(bool)),
         .values = calloc(room, sizeof(double)),
         .groups = calloc(room, sizeof(uint32_t)),
-        .ratios = calloc((size_t)plan->launches + 1, sizeof(double)),
+        .by_launch = calloc((size_t)plan->launches + 1, sizeof(double)),
     };
-    if (is_off_clock == NULL || row.values == NULL || row.groups == NULL || row.ratios == NULL) {
+    if (row->is_off_clock == NULL || row->values == NULL || row->groups == NULL ||
+        row->by_launch == NULL)
+        return false;
+    summary_off_clock(row->is_off_clock, results, case_index);
+    count_frames(row);
+    return true;
+}
+
+static void close_row(row_state *row)
+{
+    free(row->is_off_clock);
+    free(row->values);
+    free(row->groups);
+    free(row->by_launch);
+}
+
+void summary_row(fm_text *text, const fm_results *results, size_t case_index)
+{
+    row_state row = { 0 };
+    if (!open_row(&row, results, case_index))
         text->failed = true;
-        goto out;
-    }
-    summary_off_clock(is_off_clock, results, case_index);
-    count_frames(&row);
-    for (int i = 0; i < FM_COLUMN_COUNT; i++) {
+    for (int i = 0; i < FM_COLUMN_COUNT && !text->failed; i++) {
         write_column(text, &row, &fm_columns[i]);
         text_add(text, i + 1 < FM_COLUMN_COUNT ? "," : "\n");
     }
-out:
-    free(is_off_clock);
-    free(row.values);
-    free(row.groups);
-    free(row.ratios);
+    close_row(&row);
+}
+
+void summary_noise(fm_text *text, const fm_results *results, size_t case_index)
+{
+    row_state row = { 0 };
+    if (open_row(&row, results, case_index))
+        add_noise(text, &row);
+    else
+        text->failed = true;
+    close_row(&row);
 }

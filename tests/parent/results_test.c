@@ -116,7 +116,7 @@ static void summary_has_the_columns_of_the_design_in_order(void **state)
         "frame_wall_ms,fragments_per_s,clear_ms_low,clear_ms_high,count_ms_low,count_ms_high,"
         "reference_ms_low,reference_ms_high,store_ms_low,store_ms_high,resolve_ms_low,"
         "resolve_ms_high,times_floor_low,times_floor_high,frame_wall_ms_low,frame_wall_ms_high,"
-        "fragments_per_s_low,fragments_per_s_high\n");
+        "fragments_per_s_low,fragments_per_s_high,noisy\n");
     text_free(&header);
 }
 
