@@ -174,10 +174,11 @@ static bool hides_races(const fm_case_row *result)
            strcmp(result->feed, "raster") == 0;
 }
 
-static bool has_few_samples(const fm_case_row *result)
+static bool has_few_launches(const fm_case_row *result)
 {
-    return result->is_measured && !result->is_simulated &&
-           result->metric[FM_METRIC_SAMPLES] < FM_SAMPLES_WANTED;
+    const double launches = result->metric[FM_METRIC_LAUNCHES];
+    return result->is_measured && !result->is_simulated && launches >= 2 &&
+           launches < FM_LAUNCHES_WANTED;
 }
 
 static bool is_timed_once(const fm_case_row *result)
@@ -221,8 +222,7 @@ void page_add_notes(fm_text *page, const fm_result_files *results)
              "On Mesa's software rasterisers the fragments of one pixel never run at the same time "
              "on the raster feed, so that races cannot show here: use <code>--feed "
              "compute-adjacent</code> or a GPU.");
-    add_note(page, results, has_few_samples,
-             "Fewer than 5 samples were kept: the times say little.");
+    add_note(page, results, has_few_launches, "Two launches only: the intervals are very wide.");
     add_note(page, results, is_timed_once,
              "One launch only: times have no interval, and claims on them stay unclear.");
     add_note(page, results, is_noisy,

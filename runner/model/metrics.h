@@ -132,8 +132,7 @@ typedef struct fm_metric_family {
 enum { FM_METRIC_FAMILY_COUNT = 6 };
 extern const fm_metric_family fm_metric_families[FM_METRIC_FAMILY_COUNT];
 
-/* Times of fewer samples say little: a report says so, and a case whose other samples were off full
- * clock is unclear. */
+/* A case of which fewer samples are left, because others were off full clock, is unclear. */
 enum { FM_SAMPLES_WANTED = 5 };
 /* What a time needs for an interval that is of use. Of two launches it is very wide, of one there
  * is none, and what is claimed of it stays unclear. */
