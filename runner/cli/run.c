@@ -11,18 +11,21 @@
 static const struct argp argp = {
     .parser = cli_parse_spec,
     .args_doc = "[SPEC.yml]",
-    .doc = "Measures methods on scenes: times, memory and errors as CSV, charts and a report."
-           "\v"
-           "Examples:\n"
-           "  fragmark run --method kb,kplus-array -a k=4:16:*2 -o first\n"
-           "  fragmark run --method all --device vulkan,osmesa -a n=32 -a launches=3\n"
-           "  fragmark run my.yml --scene bunny -o my-results\n"
-           "\n"
-           "A run that was stopped, or killed, goes on when the same command is given with the "
-           "same -o. Results: DIR/summary.csv (a row a case), DIR/samples.csv (a row a sample), "
-           "DIR/manifest.json, DIR/report.html.\n"
-           "\n"
-           "Axes, with their values and (default):",
+    .doc =
+        "Measures methods on scenes: times, memory and errors as CSV, charts and a report."
+        "\v"
+        "Examples:\n"
+        "  fragmark run --method kb,kplus-array -a k=4:16:*2 -o first\n"
+        "  fragmark run --method all --device vulkan,osmesa -a n=32 -a launches=3\n"
+        "  fragmark run my.yml --scene bunny -o my-results\n"
+        "\n"
+        "A run that was stopped, or killed, goes on when the same command is given with the "
+        "same -o. Results: DIR/summary.csv (a row a case), DIR/samples.csv (a row a sample), "
+        "DIR/manifest.json, DIR/report.html. A time is the median of the launches' medians, with "
+        "a 95 % interval by launches beside it (frame_ms_low, frame_ms_high); of one launch there "
+        "is none. Column noisy says why a time cannot be relied on.\n"
+        "\n"
+        "Axes, with their values and (default):",
     .children = cli_spec_children,
     .help_filter = cli_axes_help,
 };

@@ -2,6 +2,7 @@
 #include "claims_kit.h"
 
 #include "page/page.h"
+#include "page/verdict_table.h"
 
 /* Adds column `noisy` to summary.csv, with this text in each row. */
 static void mark_rows(const char *directory, const char *noisy)
@@ -79,6 +80,34 @@ static void cases_of_one_launch_are_told(void **state)
     assert_non_null(strstr(start, "1 of 2 timed cases had one launch"));
 }
 
+/* Beside the number of a claim stands its interval, or that there is none. */
+static void a_claim_without_an_interval_says_so(void **state)
+{
+    (void)state;
+    char directory[64];
+    fm_error err = { 0 };
+    fm_result_files *results = NULL;
+    fm_paper_figure *figure = NULL;
+    fm_claim_results verdicts;
+    fm_text page = { 0 };
+    const fakes once = { { { ROW("a", 4, 1, 10), .launches = 1 } } };
+    kit_make_results(directory, &once);
+    assert_int_equal(kit_read_figure(&figure, directory, "at_most: 99\nof: { method: a }\n", &err),
+                     FM_OK);
+    assert_int_equal(result_files_read(&results, directory, &err), FM_OK);
+    const fm_paper_figure *const figures[] = { figure };
+    const fm_verdicts_desc desc = { results, NULL, figures, 1 };
+    assert_int_equal(verdicts_make(&verdicts, &desc, &err), FM_OK);
+    verdict_table_add(&page, &verdicts, "f");
+    assert_non_null(strstr(page.bytes, "one launch, no interval"));
+    assert_null(strstr(page.bytes, "nan"));
+    text_free(&page);
+    verdicts_free(&verdicts);
+    paper_figure_close(figure);
+    result_files_close(results);
+    kit_remove_directory(directory);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -86,6 +115,7 @@ int main(void)
         cmocka_unit_test(a_quiet_run_is_not_called_noisy),
         cmocka_unit_test(a_file_without_the_column_is_read),
         cmocka_unit_test(cases_of_one_launch_are_told),
+        cmocka_unit_test(a_claim_without_an_interval_says_so),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
