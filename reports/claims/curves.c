@@ -27,6 +27,15 @@ static double interpolate(double x0, double x1, double share)
     return x0 > 0.0 ? x0 * pow(x1 / x0, share) : x0 + share * (x1 - x0);
 }
 
+/* Whether all points have an interval; if one lacks it, nothing is known of where a curve goes. */
+static bool is_known(const curve *line)
+{
+    for (size_t i = 0; i < line->count; i++)
+        if (!interval_is_known(&line->points[i].value))
+            return false;
+    return true;
+}
+
 static double limit_of(const fm_claim_point *point, int which)
 {
     return which < 0 ? point->value.low : which > 0 ? point->value.high : point->value.median;
@@ -63,6 +72,8 @@ static void judge_crossing(judging *to, const curve *line)
     const double one = crossing_of(to, line, -1), other = crossing_of(to, line, 1);
     decision made = { .measured = { crossing_of(to, line, 0), fmin(one, other), fmax(one, other) },
                       .a = &line->points[0] };
+    if (!is_known(line))
+        made.measured.low = made.measured.high = NAN;
     made.kind = between_judge(claim, made.measured);
     /* Beyond what was measured it may still be where the claim has it. */
     const double first = line->points[0].x, last = line->points[line->count - 1].x;
@@ -87,7 +98,7 @@ static void judge_peak(judging *to, const curve *line)
     for (size_t i = 1; i < line->count; i++)
         if (is_better(to, line->points[i].value.median, best->value.median))
             best = &line->points[i];
-    decision made = { .measured = { best->x, best->x, best->x }, .a = best };
+    decision made = { .measured = interval_exact(best->x), .a = best };
     for (size_t i = 0; i < line->count; i++) {
         const fm_interval *value = &line->points[i].value;
         const bool reaches = to->claim->wants_greatest ? value->high >= best->value.low
@@ -97,6 +108,8 @@ static void judge_peak(judging *to, const curve *line)
         made.measured.low = fmin(made.measured.low, line->points[i].x);
         made.measured.high = fmax(made.measured.high, line->points[i].x);
     }
+    if (!is_known(line))
+        made.measured.low = made.measured.high = NAN;
     made.kind = between_judge(to->claim, made.measured);
     judging_decide(to, &made);
 }

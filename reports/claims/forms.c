@@ -125,7 +125,7 @@ static fm_status judge_images(judging *to, fm_error *err)
         }
         if (status != FM_OK)
             return status;
-        judging_value(to, (fm_interval){ apart, apart, apart }, point, NULL);
+        judging_value(to, interval_exact(apart), point, NULL);
     }
     return FM_OK;
 }

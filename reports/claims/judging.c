@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "bounds.h"
+#include "model/metrics.h"
 
 void judging_begin(judging *to)
 {
@@ -125,7 +126,10 @@ static void explain_unclear(fm_verdict *verdict, const judging *to)
     double bounds[2];
     const fm_interval *value = &to->worst.measured;
     bounds_of(bounds, to->claim);
-    if (why[to->claim->form] != NULL)
+    if (!interval_is_known(value))
+        add(verdict, "unclear: one launch has no interval: run with -a launches=%d or more",
+            FM_LAUNCHES_WANTED);
+    else if (why[to->claim->form] != NULL)
         add(verdict, "unclear: %s", why[to->claim->form]);
     else if (isinf(value->low) && isinf(value->high))
         add(verdict, "unclear: what it is divided by may be 0, within its interval");
@@ -136,7 +140,7 @@ static void explain_unclear(fm_verdict *verdict, const judging *to)
 
 void judging_end(fm_verdict *verdict, const judging *to)
 {
-    size_t few = 0;
+    size_t unknown = 0;
     *verdict = (fm_verdict){ .kind = to->worst.kind, .measured = to->worst.measured };
     if (to->count > 1)
         add(verdict, "%zu compared, %.4g to %.4g", to->count, to->least, to->greatest);
@@ -144,9 +148,9 @@ void judging_end(fm_verdict *verdict, const judging *to)
     if (to->worst.kind == FM_VERDICT_UNCLEAR)
         explain_unclear(verdict, to);
     for (size_t i = 0; i < to->points->count; i++)
-        few += to->points->points[i].has_few_samples;
-    if (few > 0)
-        add(verdict, "%zu of one launch or fewer than 5 samples, taken as within 15 %%", few);
+        unknown += !interval_is_known(&to->points->points[i].value);
+    if (unknown > 0 && interval_is_known(&to->worst.measured))
+        add(verdict, "%zu of one launch, which has no interval", unknown);
     if (to->note[0] != '\0')
         add(verdict, "%s", to->note);
     if (to->points->missing_count > 0)

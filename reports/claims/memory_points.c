@@ -43,7 +43,7 @@ void memory_points_add(fm_claim_points *points, const fm_claim *claim, const fm_
         else if (claim->has_over)
             value /= memory_partner(&claim->over, rows, row);
         if (isfinite(value))
-            claim_points_add(points, &(fm_claim_point){ .value = { value, value, value },
+            claim_points_add(points, &(fm_claim_point){ .value = interval_exact(value),
                                                         .x = NAN,
                                                         .row = row,
                                                         .selection = index });

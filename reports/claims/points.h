@@ -12,7 +12,6 @@ typedef struct fm_claim_point {
     const fm_case_row *other;  /* of `over`; may be NULL */
     size_t row;                /* of memory.csv */
     size_t selection;          /* index in `of` */
-    bool has_few_samples;
 } fm_claim_point;
 
 typedef struct fm_claim_points {

@@ -50,7 +50,6 @@ typedef struct partner {
     const fm_case_row *result; /* NULL: no row has a value */
     const fm_case_row *failed; /* the first row that would be one if it had; may be NULL */
     fm_interval value;
-    bool has_few_samples;
 } partner;
 
 /* The row of `selection` for the workload of `subject`. */
@@ -65,7 +64,7 @@ static partner find_partner(const points_job *job, const fm_claim_selection *sel
             !workload_same(subject, one.result, own) ||
             !is_own_partner(selection, subject, one.result))
             continue;
-        one.value = value_measured(&one.has_few_samples, selection, job->rows, one.result);
+        one.value = value_measured(selection, job->rows, one.result);
         one.failed = best.failed;
         if (!isfinite(one.value.median))
             best.failed = best.failed != NULL ? best.failed : one.result;
@@ -87,7 +86,6 @@ static bool operand(fm_interval *value, fm_claim_point *point, points_job *job,
     const partner found = find_partner(job, selection, point->result);
     *value = found.value;
     point->other = found.result;
-    point->has_few_samples |= found.has_few_samples;
     if (found.result != NULL)
         return true;
     if (found.failed != NULL)
@@ -109,12 +107,9 @@ static bool evaluate(fm_claim_point *point, points_job *job, const fm_claim_sele
     fm_interval other = { 0 };
     const fm_claim *claim = job->claim;
     point->x = x_of(job, point->result);
-    if (claim->form == FM_CLAIM_IMAGES) {
-        const bool is_paired = operand(&other, point, job, &claim->over);
-        point->has_few_samples = false; /* no time is looked at */
-        return is_paired;
-    }
-    point->value = value_measured(&point->has_few_samples, selection, job->rows, point->result);
+    if (claim->form == FM_CLAIM_IMAGES)
+        return operand(&other, point, job, &claim->over);
+    point->value = value_measured(selection, job->rows, point->result);
     if (!isfinite(point->value.median)) {
         note_missing(job, point->result, why_missing(point->result));
         return false;

@@ -5,11 +5,10 @@
 #include "match.h"
 #include "read/interval.h"
 
-/* The sum of the selection's metrics for a case; all NAN: it has none of them. Times of fewer than
- * five samples, or in software of a single launch, are widened to 15 %, and set *has_few_samples,
- * which else stays. */
-fm_interval value_measured(bool *has_few_samples, const fm_claim_selection *selection,
-                           const fm_claim_rows *rows, const fm_case_row *result);
+/* The sum of the selection's metrics for a case, as case_interval has it: exact if none of them is
+ * a time; of one launch a time has no interval. All NAN: it has none of them. */
+fm_interval value_measured(const fm_claim_selection *selection, const fm_claim_rows *rows,
+                           const fm_case_row *result);
 /* The bytes that the selection's formula gives for a case; not finite: the case lacks a number. */
 fm_interval value_by_formula(const fm_claim_selection *selection, const fm_case_row *result);
 /* The sum of the selection's metrics in a row of memory.csv; NAN: one is missing. */

@@ -100,8 +100,7 @@ void figure_job_free(fm_figure_job *job)
 
 fm_interval figure_y(const fm_figure_job *job, const fm_case_row *result)
 {
-    size_t samples;
-    return case_interval(&samples, job->results, result, text_list_items(&job->from->ys),
+    return case_interval(job->results, result, text_list_items(&job->from->ys),
                          job->from->ys.count);
 }
 

@@ -115,8 +115,8 @@ static void add_method(fm_chart *chart, const fm_group *group, size_t first, boo
                             &(fm_point){
                                 .x = error_of(result),
                                 .y = result->metric[FM_METRIC_FRAME_MS],
-                                .low = result->metric[FM_METRIC_FRAME_MS_LOW],
-                                .high = result->metric[FM_METRIC_FRAME_MS_HIGH],
+                                .low = result->low[FM_METRIC_FRAME_MS],
+                                .high = result->high[FM_METRIC_FRAME_MS],
                                 .size_px = marker_px(result, bytes_most),
                             });
     }
@@ -223,8 +223,8 @@ static size_t fit_axes(fm_chart *chart, const fm_group *group, double *values)
     for (size_t i = 0; i < group->count; i++)
         if (has_point(group->cases[i])) {
             values[times++] = group->cases[i]->metric[FM_METRIC_FRAME_MS];
-            values[times++] = group->cases[i]->metric[FM_METRIC_FRAME_MS_LOW];
-            values[times++] = group->cases[i]->metric[FM_METRIC_FRAME_MS_HIGH];
+            values[times++] = group->cases[i]->low[FM_METRIC_FRAME_MS];
+            values[times++] = group->cases[i]->high[FM_METRIC_FRAME_MS];
         }
     chart->y =
         (fm_axis){ .title = "frame time [ms]", .scale = FM_SCALE_LOG, .length_px = plot_height_px };

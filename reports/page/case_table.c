@@ -19,8 +19,9 @@ static const struct {
     { .metric = FM_METRIC_N },
     { "status", "ok, or why there is no time", 0 },
     { .metric = FM_METRIC_FRAME_MS },
-    { "interval", "95 % bootstrap interval of frame_ms", 0 },
+    { "interval", "95 % interval of frame_ms, by launches; none of one launch", 0 },
     { .metric = FM_METRIC_TIMES_FLOOR },
+    { "interval", "95 % interval of times_floor, by launches; none of one launch", 0 },
     { .metric = FM_METRIC_BYTES_ALLOCATED },
     { .metric = FM_METRIC_MISSING },
     { .metric = FM_METRIC_EXTRA },
@@ -44,16 +45,15 @@ static void format_bytes(char text[24], double bytes)
     snprintf(text, 24, "%.4g %s", bytes, units[unit]);
 }
 
-static void add_time(fm_text *page, const fm_case_row *result)
+/* A metric and its interval, if the case was measured. */
+static void add_interval(fm_text *page, const fm_case_row *result, fm_metric metric, int digits)
 {
-    html_add_number(page, 4, result->is_measured ? result->metric[FM_METRIC_FRAME_MS] : NAN);
-    if (result->is_measured && isfinite(result->metric[FM_METRIC_FRAME_MS_LOW]) &&
-        isfinite(result->metric[FM_METRIC_FRAME_MS_HIGH]))
-        text_add(page, "<td class=n>[%.4g, %.4g]</td>", result->metric[FM_METRIC_FRAME_MS_LOW],
-                 result->metric[FM_METRIC_FRAME_MS_HIGH]);
+    html_add_number(page, digits, result->is_measured ? result->metric[metric] : NAN);
+    if (result->is_measured && isfinite(result->low[metric]) && isfinite(result->high[metric]))
+        text_add(page, "<td class=n>[%.*g, %.*g]</td>", digits, result->low[metric], digits,
+                 result->high[metric]);
     else
         text_add(page, "<td></td>");
-    html_add_number(page, 3, result->metric[FM_METRIC_TIMES_FLOOR]);
 }
 
 static void add_memory(fm_text *page, const fm_case_row *result)
@@ -77,6 +77,18 @@ static bool has_message(const fm_group *group)
     return false;
 }
 
+/* One of the known words, and a mark with its reason where the times cannot be relied on. */
+static void add_status(fm_text *page, const fm_case_row *result)
+{
+    text_add(page, "<td>%s", result->status);
+    if (result->noisy[0] != '\0') {
+        text_add(page, " <mark title=\"");
+        html_add(page, result->noisy);
+        text_add(page, "\">noisy</mark>");
+    }
+    text_add(page, "</td>");
+}
+
 static void add_row(fm_text *page, const fm_group *group, size_t index, bool on_frontier)
 {
     const fm_case_row *result = group->cases[index];
@@ -91,8 +103,9 @@ static void add_row(fm_text *page, const fm_group *group, size_t index, bool on_
     text_add(page, "</td>");
     html_add_number(page, 8, result->k);
     html_add_number(page, 8, result->metric[FM_METRIC_N]);
-    text_add(page, "<td>%s</td>", result->status); /* one of the known words */
-    add_time(page, result);
+    add_status(page, result);
+    add_interval(page, result, FM_METRIC_FRAME_MS, 4);
+    add_interval(page, result, FM_METRIC_TIMES_FLOOR, 3);
     add_memory(page, result);
     html_add_number(page, 12, result->metric[FM_METRIC_MISSING]);
     html_add_number(page, 12, result->metric[FM_METRIC_EXTRA]);

@@ -35,6 +35,42 @@ static size_t count_outcome(const fm_result_files *results, fm_case_status outco
     return count;
 }
 
+static bool is_single_launch(const fm_case_row *result)
+{
+    return result->is_measured && result->metric[FM_METRIC_LAUNCHES] < 2;
+}
+
+/* How far the times are to be trusted, before any of them is read. */
+static void add_trust(fm_text *page, const fm_result_files *results)
+{
+    const char *first = NULL;
+    size_t noisy = 0, timed = 0, single = 0;
+    for (size_t i = 0; i < results->count; i++) {
+        const fm_case_row *result = &results->cases[i];
+        if (!result->is_measured || result->is_simulated)
+            continue;
+        timed++;
+        single += is_single_launch(result);
+        noisy += result->noisy[0] != '\0';
+        if (first == NULL && result->noisy[0] != '\0')
+            first = result->noisy;
+    }
+    if (noisy > 0) {
+        text_add(page,
+                 "<p class=note>The machine was busy, or launches disagree: %zu of %zu timed "
+                 "cases are noisy, the first because ",
+                 noisy, timed);
+        html_add(page, first);
+        text_add(page, ". Their times cannot be relied on; measure again on a quiet machine, or "
+                       "with more launches.</p>\n");
+    }
+    if (single > 0)
+        text_add(page,
+                 "<p class=note>%zu of %zu timed cases had one launch: their times have no "
+                 "interval, and decide no claim.</p>\n",
+                 single, timed);
+}
+
 void page_begin(fm_text *page, const fm_result_files *results)
 {
     const fm_provenance *manifest = results->manifest;
@@ -48,9 +84,11 @@ void page_begin(fm_text *page, const fm_result_files *results)
              page_css);
     text_add(page,
              "<h1>fragmark report</h1>\n<p class=faint>%zu cases: %zu ok, %zu not supported, "
-             "%zu with a wrong image, %zu that failed or were skipped.</p>\n<dl>\n",
+             "%zu with a wrong image, %zu that failed or were skipped.</p>\n",
              results->count, ok, not_supported, wrong_image,
              results->count - ok - not_supported - wrong_image);
+    add_trust(page, results);
+    text_add(page, "<dl>\n");
     add_fact(page, "what", provenance_fact(manifest, "command"));
     for (size_t i = 0; i < manifest->device_count; i++) {
         char where[256];
@@ -78,11 +116,13 @@ void page_add_guide(fm_text *page)
 {
     static const char *const sentences[] = {
         "<b>frame_ms</b> is the sum of a method's GPU passes (with timers=frame: one time for all, "
-        "and none of each), the median of all samples of all launches. A launch is a process of "
+        "and none of each), the median of the launches' medians. A launch is a process of "
         "its own; launches of all methods take turns, so that a "
         "drift of the machine meets all alike.",
-        "<b>Intervals</b> hold the median with 95 % confidence (bootstrap over launches, then over "
-        "the samples of each). Two methods whose intervals overlap are not told apart by this run.",
+        "<b>Intervals</b> hold the median with 95 % confidence. They are made of launches, each of "
+        "which counts as one number, the median of its frames. One launch has no interval, however "
+        "many frames it has, and decides no claim on a time; of two launches it is very wide. "
+        "Two methods whose intervals overlap are not told apart by this run.",
         "<b>The floor</b> is a method that consumes every fragment and stores none. <b>&times; "
         "floor</b> is a method's store time over the floor's (with timers=frame: frame time over "
         "frame time), measured in the same process: 1 is "
@@ -135,15 +175,21 @@ static bool hides_races(const fm_case_row *result)
            strcmp(result->feed, "raster") == 0;
 }
 
-static bool has_few_samples(const fm_case_row *result)
+static bool has_few_launches(const fm_case_row *result)
 {
-    return result->is_measured && !result->is_simulated &&
-           result->metric[FM_METRIC_SAMPLES] < FM_SAMPLES_WANTED;
+    const double launches = result->metric[FM_METRIC_LAUNCHES];
+    return result->is_measured && !result->is_simulated && launches >= 2 &&
+           launches < FM_LAUNCHES_WANTED;
 }
 
-static bool is_single_launch(const fm_case_row *result)
+static bool is_timed_once(const fm_case_row *result)
 {
-    return result->is_measured && result->metric[FM_METRIC_LAUNCHES] < 2;
+    return is_single_launch(result) && !result->is_simulated;
+}
+
+static bool is_noisy(const fm_case_row *result)
+{
+    return result->is_measured && result->noisy[0] != '\0';
 }
 
 static bool is_unstable(const fm_case_row *result)
@@ -182,10 +228,12 @@ void page_add_notes(fm_text *page, const fm_result_files *results)
              "On Mesa's software rasterisers the fragments of one pixel never run at the same time "
              "on the raster feed, so that races cannot show here: use <code>--feed "
              "compute-adjacent</code> or a GPU.");
-    add_note(page, results, has_few_samples,
-             "Fewer than 5 samples were kept: the times say little.");
-    add_note(page, results, is_single_launch,
-             "One launch only: intervals do not show how launches differ.");
+    add_note(page, results, has_few_launches, "Two launches only: the intervals are very wide.");
+    add_note(page, results, is_timed_once,
+             "One launch only: times have no interval, and claims on them stay unclear.");
+    add_note(page, results, is_noisy,
+             "The machine was busy, or launches disagree: the column noisy of summary.csv says of "
+             "each row why its times cannot be relied on.");
     add_note(page, results, is_unstable, "Launches drew different pictures of the same case.");
     add_note(page, results, is_empty,
              "Cases in which nothing was drawn: no fragment lies in their pictures. They are ok, "

@@ -32,7 +32,9 @@ static void add_measured(fm_text *page, const fm_interval *measured)
     if (isnan(measured->median))
         return;
     text_add(page, "%.4g", measured->median);
-    if (measured->low != measured->median || measured->high != measured->median)
+    if (!interval_is_known(measured))
+        text_add(page, " <span class=faint>one launch, no interval</span>");
+    else if (measured->low != measured->median || measured->high != measured->median)
         text_add(page, " <span class=faint>%.4g to %.4g</span>", measured->low, measured->high);
 }
 

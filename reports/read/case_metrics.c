@@ -45,7 +45,12 @@ static const derived *derived_find(const char *name)
 static fm_interval derive(const derived *metric, const fm_case_row *result, fm_interval frame_ms)
 {
     const double a = metric->value(frame_ms.low, result), b = metric->value(frame_ms.high, result);
-    return (fm_interval){ metric->value(frame_ms.median, result), fmin(a, b), fmax(a, b) };
+    fm_interval value = { metric->value(frame_ms.median, result), NAN, NAN };
+    if (interval_is_known(&frame_ms)) {
+        value.low = fmin(a, b);
+        value.high = fmax(a, b);
+    }
+    return value;
 }
 
 static bool is_metric(const fm_result_files *results, size_t row, const char *name)
@@ -148,63 +153,83 @@ static void close_sums(frame_sums *sums)
     free(sums->launches);
 }
 
-/* What is the same for all frames is summed in *constant. Returns how many metrics the case has. */
-static size_t add_metrics(frame_sums *sums, double *constant, const fm_result_files *results,
-                          const fm_case_row *result, const char *const *names, size_t name_count)
+/* The parts of a sum of metrics. */
+typedef struct metric_sum {
+    frame_sums frames;
+    double constant;    /* what is the same for all frames */
+    size_t found;       /* how many of the metrics the case has */
+    bool is_timed;      /* one of them */
+    bool is_timed_once; /* a time that stands for the case as a whole: it was taken once */
+} metric_sum;
+
+static void add_metrics(metric_sum *sum, const fm_result_files *results, const fm_case_row *result,
+                        const char *const *names, size_t name_count)
 {
-    size_t found = 0;
-    *constant = 0.0;
     for (size_t i = 0; i < name_count; i++) {
-        if (add_metric(sums, results, (size_t)(result - results->cases), names[i])) {
-            found++;
+        const bool is_timed = metric_is_time(names[i]);
+        double value = 0.0;
+        const bool has_frames =
+            add_metric(&sum->frames, results, (size_t)(result - results->cases), names[i]);
+        if (!has_frames)
+            value = case_metric(results, result, names[i]);
+        if (isnan(value))
             continue;
-        }
-        const double value = case_metric(results, result, names[i]);
-        *constant += isnan(value) ? 0.0 : value;
-        found += isnan(value) ? 0 : 1;
+        sum->constant += value;
+        sum->found++;
+        sum->is_timed |= is_timed;
+        sum->is_timed_once |= is_timed && !has_frames;
     }
-    return found;
 }
 
-static fm_interval interval_of(const frame_sums *sums, double constant)
+static fm_interval interval_of(const metric_sum *sum)
 {
+    const frame_sums *frames = &sum->frames;
     uint32_t group_count = 1;
-    for (size_t i = 0; i < sums->count; i++)
-        if (sums->launches[i] >= group_count)
-            group_count = sums->launches[i] + 1;
-    const fm_samples samples = { sums->values, sums->launches, sums->count, group_count };
-    fm_interval interval = stats_bootstrap(&samples, 1);
-    interval.median += constant;
-    interval.low += constant;
-    interval.high += constant;
+    if (sum->found == 0)
+        return interval_exact(NAN);
+    for (size_t i = 0; i < frames->count; i++)
+        if (frames->launches[i] >= group_count)
+            group_count = frames->launches[i] + 1;
+    fm_interval interval = interval_exact(0.0);
+    if (frames->count > 0)
+        interval = stats_by_launch(
+            &(fm_samples){ frames->values, frames->launches, frames->count, group_count });
+    if (!sum->is_timed)
+        interval = interval_exact(interval.median);
+    if (sum->is_timed_once)
+        interval.low = interval.high = NAN;
+    interval.median += sum->constant;
+    interval.low += sum->constant;
+    interval.high += sum->constant;
     return interval;
 }
 
-fm_interval case_interval(size_t *sample_count, const fm_result_files *results,
-                          const fm_case_row *result, const char *const *names, size_t name_count)
+/* As summary.csv has it; false: it has no interval of this metric. */
+static bool read_interval(fm_interval *interval, const fm_case_row *result, const char *name)
+{
+    fm_metric metric;
+    if (!metric_find(&metric, name))
+        return false;
+    *interval = (fm_interval){ result->metric[metric], result->low[metric], result->high[metric] };
+    return interval_is_known(interval);
+}
+
+fm_interval case_interval(const fm_result_files *results, const fm_case_row *result,
+                          const char *const *names, size_t name_count)
 {
     const char *const frame[] = { fm_metrics[FM_METRIC_FRAME_MS].name };
     const derived *metric = name_count == 1 ? derived_find(names[0]) : NULL;
-    if (metric != NULL)
-        return derive(metric, result, case_interval(sample_count, results, result, frame, 1));
-    const size_t *first = results->samples.first + (result - results->cases);
-    frame_sums sums;
-    double constant = 0.0;
     fm_interval interval = { NAN, NAN, NAN };
-    *sample_count = 0;
-    if (open_sums(&sums, first[1] - first[0] + 1)) {
-        const size_t found = add_metrics(&sums, &constant, results, result, names, name_count);
-        *sample_count = sums.count;
-        if (sums.count > 0)
-            interval = interval_of(&sums, constant);
-        else if (found > 0)
-            interval = (fm_interval){ constant, constant, constant };
-        if (name_count == 1 && sums.count == 0 &&
-            strcmp(names[0], fm_metrics[FM_METRIC_FRAME_MS].name) == 0)
-            interval = (fm_interval){ result->metric[FM_METRIC_FRAME_MS],
-                                      result->metric[FM_METRIC_FRAME_MS_LOW],
-                                      result->metric[FM_METRIC_FRAME_MS_HIGH] };
+    if (metric != NULL && metric_is_time(names[0]))
+        return derive(metric, result, case_interval(results, result, frame, 1));
+    if (name_count == 1 && read_interval(&interval, result, names[0]))
+        return interval;
+    const size_t *first = results->samples.first + (result - results->cases);
+    metric_sum sum = { 0 };
+    if (open_sums(&sum.frames, first[1] - first[0] + 1)) {
+        add_metrics(&sum, results, result, names, name_count);
+        interval = interval_of(&sum);
     }
-    close_sums(&sums);
+    close_sums(&sum.frames);
     return interval;
 }

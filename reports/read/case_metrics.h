@@ -14,10 +14,10 @@ double case_metric(const fm_result_files *results, const fm_case_row *result, co
  */
 double case_place(const fm_result_files *results, const fm_case_row *result, const char *name);
 
-/* The sum of metrics of a case, each as above, with its 95 % interval where they have samples by
- * frame; parts that the case does not have count as 0. All NAN: it has none of them. sample_count:
- * how many frames the interval is made of; 0: the value stands for the case as a whole. */
-fm_interval case_interval(size_t *sample_count, const fm_result_files *results,
-                          const fm_case_row *result, const char *const *names, size_t name_count);
+/* The sum of metrics of a case, each as above; parts that the case does not have count as 0. All
+ * NAN: it has none of them. Times have the 95 % interval of their launches (base/stats.h), and none
+ * if there was one launch; other numbers are exact. */
+fm_interval case_interval(const fm_result_files *results, const fm_case_row *result,
+                          const char *const *names, size_t name_count);
 
 #endif

@@ -18,6 +18,7 @@ static const size_t fact_at[FM_FACT_COUNT] = {
     [FM_FACT_FEED] = offsetof(fm_case_row, feed),
     [FM_FACT_SCENE] = offsetof(fm_case_row, scene),
     [FM_FACT_OPTIONS] = offsetof(fm_case_row, options),
+    [FM_FACT_NOISY] = offsetof(fm_case_row, noisy),
 };
 
 #define KEY(field, text)                                                                           \
@@ -111,10 +112,14 @@ static fm_status read_cell(fm_case_row *result, const fm_column *column, const f
         return fact_is_kept(column->fact) ? read_text(result, fact_at[column->fact], text) : FM_OK;
     case FM_COLUMN_METRIC:
         return table_number(&result->metric[column->metric], table, row, index, err);
+    case FM_COLUMN_LOW:
+        return table_number(&result->low[column->metric], table, row, index, err);
+    case FM_COLUMN_HIGH:
+        return table_number(&result->high[column->metric], table, row, index, err);
     case FM_COLUMN_KEY:
         break;
     }
-    key = key_index(column->key);
+    key = key_index(column->name);
     if (key == KEY_COUNT)
         return FM_OK;
     return keys[key].is_text ? read_text(result, keys[key].at, text)
@@ -128,7 +133,7 @@ static fm_status read_cells(fm_case_row *result, const fm_table *table, size_t r
 {
     fm_status status = FM_OK;
     for (size_t i = 0; i < FM_METRIC_COUNT; i++)
-        result->metric[i] = NAN;
+        result->metric[i] = result->low[i] = result->high[i] = NAN;
     for (size_t i = 0; i < FM_COLUMN_COUNT && status == FM_OK; i++)
         status = read_cell(result, &fm_columns[i], table, row, index[i], err);
     return status;
@@ -175,15 +180,37 @@ uint32_t cases_find(const fm_case_row *cases, size_t count, const char *id, uint
     return UINT32_MAX;
 }
 
+/* The number in a column that is not a key's; NULL: there is no such column. */
+static const double *number_of(const fm_case_row *result, const char *name)
+{
+    for (size_t i = 0; i < FM_COLUMN_COUNT; i++) {
+        const fm_column *column = &fm_columns[i];
+        if (strcmp(column_name(column), name) != 0)
+            continue;
+        switch (column->kind) {
+        case FM_COLUMN_METRIC:
+            return &result->metric[column->metric];
+        case FM_COLUMN_LOW:
+            return &result->low[column->metric];
+        case FM_COLUMN_HIGH:
+            return &result->high[column->metric];
+        case FM_COLUMN_FACT:
+        case FM_COLUMN_KEY:
+            break;
+        }
+    }
+    return NULL;
+}
+
 bool case_number(double *value, const fm_case_row *result, const char *name)
 {
     const size_t key = key_index(name);
-    fm_metric metric;
-    if (metric_find(&metric, name) && (summary_has_column(name) || metric == FM_METRIC_TOTAL_RMSE))
-        *value = result->metric[metric];
-    else if (key < KEY_COUNT && !keys[key].is_text)
+    const double *number = number_of(result, name);
+    if (strcmp(name, fm_metrics[FM_METRIC_TOTAL_RMSE].name) == 0)
+        number = &result->metric[FM_METRIC_TOTAL_RMSE];
+    if (key < KEY_COUNT && !keys[key].is_text)
         memcpy(value, (const char *)result + keys[key].at, sizeof *value);
-    else
-        return false;
-    return true;
+    else if (number != NULL)
+        *value = *number;
+    return number != NULL || (key < KEY_COUNT && !keys[key].is_text);
 }

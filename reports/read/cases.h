@@ -18,11 +18,14 @@ typedef struct fm_case_row {
     const char *id; /* at most 64 bytes, without '/': names of pictures are made from it */
     const char *status, *message, *method, *method_version, *device, *device_name, *feed;
     const char *scene, *order, *seed, *options; /* options: read by options.h */
+    const char *noisy; /* why its times are not to be relied on; "": no reason is known */
     /* the workload; k is NAN for methods that keep no k nearest */
     double width_px, height_px, k, r, pixel_density, fragment_probability, tessellation;
     /* By fm_metric; NAN for those that summary.csv has no column for, but total_rmse, which is from
      * samples.csv, or rmse where the run has none. */
     double metric[FM_METRIC_COUNT];
+    /* Ends of its interval, the same: NAN where one launch has none, or the file has no column. */
+    double low[FM_METRIC_COUNT], high[FM_METRIC_COUNT];
 
     /* what follows from the row and from manifest.json */
     fm_case_status outcome; /* of the word `status` */

@@ -50,8 +50,10 @@
  * apart; the worst of them decides.
  *
  * A verdict is `holds` or `fails` only if the whole 95 % interval agrees, else `unclear`; `not
- * testable here` when there is no point. Times of fewer than five samples, or in software of a
- * single launch, whose drift shows in no sample, count as within 15 % at best. */
+ * testable here` when there is no point. Intervals are by launches (base/stats.h). A time, or a
+ * ratio or rate of times, has none if there was one launch, and a claim that hangs on it is
+ * unclear. Bytes, counts, errors and modelled numbers are exact, and need one launch only; which
+ * numbers are times says `is_timed` in model/metrics.c. */
 #ifndef FM_CLAIM_H
 #define FM_CLAIM_H
 

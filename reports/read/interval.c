@@ -5,6 +5,8 @@
 
 fm_interval interval_difference(fm_interval minuend, fm_interval subtrahend)
 {
+    if (!interval_is_known(&minuend) || !interval_is_known(&subtrahend))
+        return (fm_interval){ minuend.median - subtrahend.median, NAN, NAN };
     const double below = hypot(minuend.median - minuend.low, subtrahend.high - subtrahend.median);
     const double above = hypot(minuend.high - minuend.median, subtrahend.median - subtrahend.low);
     const double median = minuend.median - subtrahend.median;
@@ -19,8 +21,10 @@ static bool is_exact(fm_interval value)
 fm_interval interval_ratio(fm_interval dividend, fm_interval divisor)
 {
     const double median = dividend.median / divisor.median;
+    if (!interval_is_known(&dividend) || !interval_is_known(&divisor))
+        return (fm_interval){ median, NAN, NAN };
     if (is_exact(dividend) && is_exact(divisor))
-        return (fm_interval){ median, median, median };
+        return interval_exact(median);
     if (is_exact(divisor) && divisor.median > 0.0)
         return (fm_interval){ median, dividend.low / divisor.median,
                               dividend.high / divisor.median };

@@ -4,7 +4,8 @@
 
 #include "base/stats.h"
 
-/* Both are of independent medians with 95 % intervals. The limits are recovered from those of the
+/* Both are of independent medians with 95 % intervals. If one of them has none (one launch), the
+ * result has none. The limits are recovered from those of the
  * parts (Donner and Zou's MOVER), of a ratio from their logarithms. Where the divisor's interval
  * holds 0, that of the ratio is infinite. */
 fm_interval interval_ratio(fm_interval dividend, fm_interval divisor);

@@ -28,7 +28,7 @@ static const struct argp_option selection_options[] = {
       "values of one axis or of a method's option: k=4,8,16, k=4:64:*2, n=16:64:+16; repeatable",
       0 },
     { "plugin-dir", KEY_PLUGINS, "DIR", 0, "look for methods here first; repeatable", 0 },
-    { "seed", KEY_SEED, "N", 0, "of the order of launches and of the intervals", 0 },
+    { "seed", KEY_SEED, "N", 0, "of the order of launches", 0 },
     { 0 },
 };
 

@@ -4,10 +4,8 @@
 #include "simulator/counters.h"
 
 static const char *const of_words[] = {
-    [FM_OF_FRAME] = "frame",
-    [FM_OF_CASE] = "case",
-    [FM_OF_SUMMARY] = "summary",
-    [FM_OF_REPORT] = "report",
+    [FM_OF_FRAME] = "frame",     [FM_OF_LAUNCH] = "launch", [FM_OF_CASE] = "case",
+    [FM_OF_SUMMARY] = "summary", [FM_OF_REPORT] = "report",
 };
 static const char *const better_words[] = {
     [FM_BETTER_NEITHER] = "",
@@ -37,9 +35,12 @@ static const char *files(const fm_metric_info *info)
     const bool has_column = summary_has_column(info->name);
     if (info->of == FM_OF_REPORT)
         return "none";
+    if (info->of == FM_OF_LAUNCH)
+        return "samples, without frame";
     if (info->of == FM_OF_FRAME)
         return has_column ? "samples, median in summary" : "samples";
-    return has_column ? "summary" : "samples, without launch and frame";
+    return has_column || info->of == FM_OF_SUMMARY ? "summary"
+                                                   : "samples, without launch and frame";
 }
 
 void list_metrics_markdown(FILE *out)
@@ -48,8 +49,11 @@ void list_metrics_markdown(FILE *out)
     for (size_t i = 0; i < ROW_COUNT; i++) {
         const fm_metric_info *info = row(i);
         fprintf(out, "| `%s` | %s | %s | %s | %s | %s%s |\n", info->name, info->unit,
-                info->of == FM_OF_FRAME ? "frame" : "case", better_words[info->better], files(info),
-                info->definition, info->is_measured ? "" : " (deterministic)");
+                info->of == FM_OF_FRAME    ? "frame"
+                : info->of == FM_OF_LAUNCH ? "launch"
+                                           : "case",
+                better_words[info->better], files(info), info->definition,
+                info->is_measured ? "" : " (deterministic)");
     }
 }
 

@@ -1,5 +1,6 @@
 #include "parent/run.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -10,18 +11,21 @@
 static const struct argp argp = {
     .parser = cli_parse_spec,
     .args_doc = "[SPEC.yml]",
-    .doc = "Measures methods on scenes: times, memory and errors as CSV, charts and a report."
-           "\v"
-           "Examples:\n"
-           "  fragmark run --method kb,kplus-array -a k=4:16:*2 -o first\n"
-           "  fragmark run --method all --device vulkan,osmesa -a n=32 -a launches=3\n"
-           "  fragmark run my.yml --scene bunny -o my-results\n"
-           "\n"
-           "A run that was stopped, or killed, goes on when the same command is given with the "
-           "same -o. Results: DIR/summary.csv (a row a case), DIR/samples.csv (a row a sample), "
-           "DIR/manifest.json, DIR/report.html.\n"
-           "\n"
-           "Axes, with their values and (default):",
+    .doc =
+        "Measures methods on scenes: times, memory and errors as CSV, charts and a report."
+        "\v"
+        "Examples:\n"
+        "  fragmark run --method kb,kplus-array -a k=4:16:*2 -o first\n"
+        "  fragmark run --method all --device vulkan,osmesa -a n=32 -a launches=3\n"
+        "  fragmark run my.yml --scene bunny -o my-results\n"
+        "\n"
+        "A run that was stopped, or killed, goes on when the same command is given with the "
+        "same -o. Results: DIR/summary.csv (a row a case), DIR/samples.csv (a row a sample), "
+        "DIR/manifest.json, DIR/report.html. A time is the median of the launches' medians, with "
+        "a 95 % interval by launches beside it (frame_ms_low, frame_ms_high); of one launch there "
+        "is none. Column noisy says why a time cannot be relied on.\n"
+        "\n"
+        "Axes, with their values and (default):",
     .children = cli_spec_children,
     .help_filter = cli_axes_help,
 };
@@ -88,6 +92,19 @@ static int exit_code(const fm_run_result *result, const fm_plan *plan)
     return result->ok > 0 || plan->count == 0 ? CLI_DONE : CLI_NOTHING;
 }
 
+/* Whoever reads a time must know what it was measured beside. */
+static void tell_noise(FILE *talk, const fm_run_result *result)
+{
+    fprintf(talk, "NOISY: %u of the rows cannot be relied on (column noisy)", result->noisy);
+    if (!isnan(result->waited_share))
+        fprintf(talk, "; threads waited for a processor %.0f %% of the time",
+                100.0 * result->waited_share);
+    if (!isnan(result->load))
+        fprintf(talk, ", load average up to %.1f on %ld processors", result->load,
+                sysconf(_SC_NPROCESSORS_ONLN));
+    fputc('\n', talk);
+}
+
 static void sum_up(const fm_arguments *arguments, const fm_run_result *result,
                    const cli_run_desc *desc)
 {
@@ -103,6 +120,8 @@ static void sum_up(const fm_arguments *arguments, const fm_run_result *result,
     if (result->skipped > 0)
         fprintf(talk, ", %u not finished", result->skipped);
     fputc('\n', talk);
+    if (result->noisy > 0)
+        tell_noise(talk, result);
     cli_reasons(talk, desc->directory);
 }
 

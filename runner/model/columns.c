@@ -6,13 +6,18 @@
     {                                                                                              \
         .kind = FM_COLUMN_FACT, .fact = FM_FACT_##id                                               \
     }
-#define KEY(name)                                                                                  \
+#define KEY(key)                                                                                   \
     {                                                                                              \
-        .kind = FM_COLUMN_KEY, .key = name                                                         \
+        .kind = FM_COLUMN_KEY, .name = key                                                         \
     }
 #define METRIC(id)                                                                                 \
     {                                                                                              \
         .kind = FM_COLUMN_METRIC, .metric = FM_METRIC_##id                                         \
+    }
+#define ENDS(id, title)                                                                            \
+    { .kind = FM_COLUMN_LOW, .name = title "_low", .metric = FM_METRIC_##id },                     \
+    {                                                                                              \
+        .kind = FM_COLUMN_HIGH, .name = title "_high", .metric = FM_METRIC_##id                    \
     }
 
 /* clang-format off */
@@ -41,8 +46,7 @@ const fm_column fm_columns[] = {
     METRIC(LAUNCHES),
     METRIC(SAMPLES),
     METRIC(FRAME_MS),
-    METRIC(FRAME_MS_LOW),
-    METRIC(FRAME_MS_HIGH),
+    ENDS(FRAME_MS, "frame_ms"),
     METRIC(CLEAR_MS),
     METRIC(COUNT_MS),
     METRIC(REFERENCE_MS),
@@ -70,6 +74,15 @@ const fm_column fm_columns[] = {
     METRIC(FRAGMENTS_PER_S),
     METRIC(TIED_PIXELS),
     METRIC(WRONG_TILES),
+    ENDS(CLEAR_MS, "clear_ms"),
+    ENDS(COUNT_MS, "count_ms"),
+    ENDS(REFERENCE_MS, "reference_ms"),
+    ENDS(STORE_MS, "store_ms"),
+    ENDS(RESOLVE_MS, "resolve_ms"),
+    ENDS(TIMES_FLOOR, "times_floor"),
+    ENDS(FRAME_WALL_MS, "frame_wall_ms"),
+    ENDS(FRAGMENTS_PER_S, "fragments_per_s"),
+    FACT(NOISY),
 };
 /* clang-format on */
 _Static_assert(sizeof fm_columns / sizeof fm_columns[0] == FM_COLUMN_COUNT, "FM_COLUMN_COUNT");
@@ -80,7 +93,7 @@ static const char *const fact_name[] = {
     [FM_FACT_METHOD] = "method",   [FM_FACT_METHOD_VERSION] = "method_version",
     [FM_FACT_DEVICE] = "device",   [FM_FACT_DEVICE_NAME] = "device_name",
     [FM_FACT_FEED] = "feed",       [FM_FACT_SCENE] = "scene",
-    [FM_FACT_OPTIONS] = "options",
+    [FM_FACT_OPTIONS] = "options", [FM_FACT_NOISY] = "noisy",
 };
 _Static_assert(sizeof fact_name / sizeof fact_name[0] == FM_FACT_COUNT, "one name a fact");
 
@@ -90,7 +103,9 @@ const char *column_name(const fm_column *column)
     case FM_COLUMN_FACT:
         return fact_name[column->fact];
     case FM_COLUMN_KEY:
-        return column->key;
+    case FM_COLUMN_LOW:
+    case FM_COLUMN_HIGH:
+        return column->name;
     case FM_COLUMN_METRIC:
         break;
     }

@@ -23,26 +23,29 @@ typedef enum fm_fact {
     FM_FACT_SCENE,          /* its name, or the path of its file */
     FM_FACT_OPTIONS,        /* "key=value ...": a method's own, and keys off their default that have
                                no column */
+    FM_FACT_NOISY,          /* why its times are not to be relied on; empty: no reason is known */
     FM_FACT_COUNT
 } fm_fact;
 
 #define FM_SUMMARY_SCHEMA "1"
 
 typedef enum fm_column_kind {
-    FM_COLUMN_FACT,  /* text */
-    FM_COLUMN_KEY,   /* a key's value, empty where the scene or method does not use it */
-    FM_COLUMN_METRIC /* a number, empty where it does not apply */
+    FM_COLUMN_FACT,   /* text */
+    FM_COLUMN_KEY,    /* a key's value, empty where the scene or method does not use it */
+    FM_COLUMN_METRIC, /* a number, empty where it does not apply */
+    FM_COLUMN_LOW,    /* lower end of the 95 % interval of a metric; empty: of one launch */
+    FM_COLUMN_HIGH    /* upper end of it */
 } fm_column_kind;
 
 typedef struct fm_column {
     fm_column_kind kind;
     fm_fact fact;
-    const char *key; /* name of a key */
+    const char *name; /* of a key; of an interval's end: the metric's with _low or _high */
     fm_metric metric;
 } fm_column;
 
 enum {
-    FM_COLUMN_COUNT = 53,
+    FM_COLUMN_COUNT = 70,
     FM_COLUMN_REQUIRED =
         51 /* the first of them: files of schema 1 have these, later ones may lack */
 };

@@ -235,7 +235,7 @@ const fm_key fm_keys[] = {
     { "model", FM_KEY_TEXT, FM_SCOPE_CASE, AT(model), .fallback = "",
       .help = "of the simulated GPU: \"NAME=VALUE ...\", names as in its parameters.yml" },
     { "launches", FM_KEY_UINT, FM_SCOPE_RUN, AT(launches), .low = 1, .high = 1000,
-      .fallback = "5", .help = "processes that measure a case" },
+      .fallback = "5", .help = "processes that measure a case; of one, times have no interval" },
     { "frames", FM_KEY_UINT, FM_SCOPE_RUN, AT(frames), .low = 1, .high = 10000,
       .fallback = "5", .help = "timed frames of a launch" },
     { "warmup", FM_KEY_UINT, FM_SCOPE_RUN, AT(warmup), .low = 0, .high = 100,

@@ -5,32 +5,34 @@
 #define LESS     .better = FM_BETTER_LESS
 #define MORE     .better = FM_BETTER_MORE
 #define FRAME    .of = FM_OF_FRAME
+#define LAUNCH   .of = FM_OF_LAUNCH
 #define CASE     .of = FM_OF_CASE
 #define SUMMARY  .of = FM_OF_SUMMARY
 #define REPORT   .of = FM_OF_REPORT
 #define MEASURED .is_measured = true
+#define TIMED    .is_measured = true, .is_timed = true
 
 /* clang-format off */
 const fm_metric_info fm_metrics[FM_METRIC_COUNT] = {
     [FM_METRIC_FRAME_MS] = { "frame_ms", "frame time", "ms",
         "GPU time of all passes of a frame, each between two timestamps (timers=frame: one interval)",
-        FRAME, LESS, MEASURED },
+        FRAME, LESS, TIMED },
     [FM_METRIC_FRAME_WALL_MS] = { "frame_wall_ms", "frame, host", "ms",
-        "the host's time for the same frame, with read-backs and waiting", FRAME, LESS, MEASURED },
-    [FM_METRIC_CLEAR_MS] = { "clear_ms", "clear", "ms", "pass clear", FRAME, LESS, MEASURED },
-    [FM_METRIC_COUNT_MS] = { "count_ms", "count", "ms", "pass count", FRAME, LESS, MEASURED },
+        "the host's time for the same frame, with read-backs and waiting", FRAME, LESS, TIMED },
+    [FM_METRIC_CLEAR_MS] = { "clear_ms", "clear", "ms", "pass clear", FRAME, LESS, TIMED },
+    [FM_METRIC_COUNT_MS] = { "count_ms", "count", "ms", "pass count", FRAME, LESS, TIMED },
     [FM_METRIC_REFERENCE_MS] = { "reference_ms", "referencing step", "ms", "pass reference", FRAME,
-        LESS, MEASURED },
-    [FM_METRIC_STORE_MS] = { "store_ms", "store", "ms", "pass store", FRAME, LESS, MEASURED },
-    [FM_METRIC_RESOLVE_MS] = { "resolve_ms", "resolve", "ms", "pass resolve", FRAME, LESS, MEASURED },
+        LESS, TIMED },
+    [FM_METRIC_STORE_MS] = { "store_ms", "store", "ms", "pass store", FRAME, LESS, TIMED },
+    [FM_METRIC_RESOLVE_MS] = { "resolve_ms", "resolve", "ms", "pass resolve", FRAME, LESS, TIMED },
     [FM_METRIC_CULLING_MS] = { "culling_ms", "culling", "ms", "the passes that make the occupancy map",
-        FRAME, LESS, MEASURED },
+        FRAME, LESS, TIMED },
     [FM_METRIC_FLOOR_STORE_MS] = { "floor_store_ms", "floor, store", "ms",
-        "pass store of the floor, in the frame beside the method's", FRAME, LESS, MEASURED },
+        "pass store of the floor, in the frame beside the method's", FRAME, LESS, TIMED },
     [FM_METRIC_FLOOR_FRAME_MS] = { "floor_frame_ms", "floor, frame", "ms",
-        "all passes of the floor, in the frame beside the method's", FRAME, LESS, MEASURED },
+        "all passes of the floor, in the frame beside the method's", FRAME, LESS, TIMED },
     [FM_METRIC_CANARY_NS] = { "canary_ns", "canary", "ns",
-        "an empty timed interval: where it grows, the GPU's clock has fallen", FRAME, MEASURED },
+        "an empty timed interval: where it grows, the GPU's clock has fallen", FRAME, TIMED },
     [FM_METRIC_OFF_CLOCK] = { "off_clock", "off clock", "",
         "1 for a frame that was not at full clock; its times count for nothing", FRAME, MEASURED },
     [FM_METRIC_BYTES_ALLOCATED] = { "bytes_allocated", "memory", "B",
@@ -69,7 +71,7 @@ const fm_metric_info fm_metrics[FM_METRIC_COUNT] = {
     [FM_METRIC_FRAMES_REDONE] = { "frames_redone", "frames redone", "",
         "frames that were run again because a buffer had to grow", CASE, LESS },
     [FM_METRIC_REDONE_MS] = { "redone_ms", "redone", "ms",
-        "the passes of all those frames: the cost of growing beside frame_ms", CASE, LESS, MEASURED },
+        "the passes of all those frames: the cost of growing beside frame_ms", CASE, LESS, TIMED },
     [FM_METRIC_FRAMES_LOSSY] = { "frames_lossy", "lossy frames", "",
         "frames that were run again because a software rasteriser's lock gave up", CASE, LESS, MEASURED },
     [FM_METRIC_MISSING] = { "missing", "missing", "", "wanted fragments that were not captured", CASE,
@@ -109,22 +111,18 @@ const fm_metric_info fm_metrics[FM_METRIC_COUNT] = {
         "rmse of the image against the picture of all fragments", CASE, LESS },
     [FM_METRIC_DISTINCT_IMAGES] = { "distinct_images", "distinct images", "",
         "how many different images all timed frames drew", SUMMARY, LESS, MEASURED },
-    [FM_METRIC_FRAME_MS_LOW] = { "frame_ms_low", "frame, low", "ms",
-        "lower end of the 95 % interval of frame_ms", SUMMARY, LESS, MEASURED },
-    [FM_METRIC_FRAME_MS_HIGH] = { "frame_ms_high", "frame, high", "ms",
-        "upper end of the 95 % interval of frame_ms", SUMMARY, LESS, MEASURED },
     [FM_METRIC_TIMES_FLOOR] = { "times_floor", "x floor", "",
-        "store_ms over floor_store_ms, median of the launches (timers=frame: of frames)", SUMMARY, LESS,
-        MEASURED },
+        "store_ms over floor_store_ms of the same launch, median of the launches (timers=frame: of frames)", SUMMARY, LESS,
+        TIMED },
     [FM_METRIC_FRAGMENTS_PER_S] = { "fragments_per_s", "fragments/s", "1/s",
-        "fragments_generated over frame_ms", SUMMARY, MORE, MEASURED },
+        "fragments_generated over frame_ms", SUMMARY, MORE, TIMED },
     [FM_METRIC_LAUNCHES] = { "launches", "launches", "", "processes that measured the case", SUMMARY },
     [FM_METRIC_SAMPLES] = { "samples", "samples", "", "timed frames that count, of all launches",
         SUMMARY, MEASURED },
-    [FM_METRIC_FPS] = { "fps", "frames per second", "1/s", "1000 over frame_ms", REPORT, MORE, MEASURED },
+    [FM_METRIC_FPS] = { "fps", "frames per second", "1/s", "1000 over frame_ms", REPORT, MORE, TIMED },
     [FM_METRIC_MIB] = { "mib", "memory", "MiB", "bytes_allocated over 2^20", REPORT, LESS },
     [FM_METRIC_FPS_PER_MIB] = { "fps_per_mib", "frames per second and MiB", "1/(s MiB)", "fps over mib",
-        REPORT, MORE, MEASURED },
+        REPORT, MORE, TIMED },
     [FM_METRIC_CYCLES] = { "cycles", "cycles", "",
         "modelled cycles of all frames but the first", CASE, LESS },
     [FM_METRIC_ENERGY_NJ] = { "energy_nj", "energy", "nJ",
@@ -134,7 +132,7 @@ const fm_metric_info fm_metrics[FM_METRIC_COUNT] = {
     [FM_METRIC_WRONG_FRAMES] = { "wrong_frames", "wrong frames", "", "frames with such a tile", CASE,
         LESS },
     [FM_METRIC_SIMULATED_RATE] = { "simulated_fragments_per_core_s", "simulated", "1/s",
-        "fragments that a core of the host simulates in a second", CASE, MORE, MEASURED },
+        "fragments that a core of the host simulates in a second", CASE, MORE, TIMED },
     [FM_METRIC_FRAME_CYCLES] = { "frame.cycles", "cycles of a frame", "", "modelled cycles", FRAME,
         LESS },
     [FM_METRIC_FRAME_ENERGY_NJ] = { "frame.energy_nj", "energy of a frame", "nJ", "modelled energy",
@@ -145,17 +143,44 @@ const fm_metric_info fm_metrics[FM_METRIC_COUNT] = {
         "fragments that were shaded", FRAME, LESS },
     [FM_METRIC_FRAME_WRONG_TILES] = { "frame.wrong_tiles", "wrong tiles in a frame", "",
         "tiles whose colours are not the baseline's", FRAME, LESS },
+    [FM_METRIC_LAUNCH_CPU_S] = { "launch_cpu_s", "processor time of the launch", "s",
+        "user and system time of the launch's process", LAUNCH, LESS, TIMED },
+    [FM_METRIC_TIMED_S] = { "timed_s", "timed part", "s",
+        "how long the timed frames took, the floor's too, by the host's clock", LAUNCH, LESS, TIMED },
+    [FM_METRIC_TIMED_CPU_S] = { "timed_cpu_s", "processor time of the timed part", "s",
+        "user and system time of the process meanwhile", LAUNCH, LESS, TIMED },
+    [FM_METRIC_WAITED_S] = { "waited_s", "waited for a processor", "s",
+        "how long, in sum, threads of the process stood ready meanwhile and had no processor", LAUNCH,
+        LESS, TIMED },
+    [FM_METRIC_OTHERS_CPU_S] = { "others_cpu_s", "processor time of others", "s",
+        "what all other processes used meanwhile, and what a hypervisor took", LAUNCH, LESS, TIMED },
+    [FM_METRIC_INVOLUNTARY_SWITCHES] = { "involuntary_switches", "involuntary switches", "",
+        "how often a thread of the process lost its processor meanwhile", LAUNCH, LESS, MEASURED },
+    [FM_METRIC_LOAD_BEGIN] = { "load_begin", "load before", "",
+        "load average of the last minute before the timed frames: threads that ran or were ready",
+        LAUNCH, LESS, MEASURED },
+    [FM_METRIC_LOAD_END] = { "load_end", "load after", "", "the same after them", LAUNCH, LESS, MEASURED },
+    [FM_METRIC_THROTTLED_S] = { "throttled_s", "throttled", "s",
+        "how long the control group's limit stopped its processes meanwhile", LAUNCH, LESS, TIMED },
+    [FM_METRIC_THERMAL_EVENTS] = { "thermal_events", "thermal events", "",
+        "how often a processor was slowed down for heat meanwhile", LAUNCH, LESS, MEASURED },
+    [FM_METRIC_CLOCK_SHARE] = { "clock_share", "share of the clock", "",
+        "clock of the slowest processor over the highest, after the timed frames", LAUNCH, MORE,
+        MEASURED },
 };
 
 const fm_metric_family fm_metric_families[FM_METRIC_FAMILY_COUNT] = {
     { "pass.", "_ms", { "pass.NAME_ms", "pass NAME", "ms", "a pass of the method's own", FRAME, LESS,
-        MEASURED } },
+        TIMED } },
     { "energy_corner.", "_nj", { "energy_corner.CORNER_nj", "energy at CORNER", "nJ",
         "modelled energy with every uncertain parameter at one end of its range", CASE, LESS } },
     { "energy.", "_nj", { "energy.PART_nj", "energy, PART", "nJ", "modelled energy of a part of the GPU",
         CASE, LESS } },
     { "cycles.", "", { "cycles.PART", "cycles, PART", "",
         "modelled cycles of a part, or with one parameter at an end of its range", CASE, LESS } },
+    { "", "_low", { "METRIC_low", "METRIC, low", "",
+        "lower end of the 95 % interval of METRIC, by launches; empty with one launch", SUMMARY, TIMED } },
+    { "", "_high", { "METRIC_high", "METRIC, high", "", "upper end of it", SUMMARY, TIMED } },
 };
 /* clang-format on */
 
@@ -192,6 +217,5 @@ const fm_metric_info *metric_describe(const char *name)
 bool metric_is_time(const char *name)
 {
     const fm_metric_info *info = metric_describe(name);
-    return info != NULL && info->is_measured &&
-           (strcmp(info->unit, "ms") == 0 || info->of == FM_OF_REPORT);
+    return info != NULL && info->is_timed;
 }

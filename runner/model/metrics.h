@@ -64,8 +64,6 @@ typedef enum fm_metric {
     FM_METRIC_TOTAL_RMSE,
     FM_METRIC_DISTINCT_IMAGES,
     /* what follows from times */
-    FM_METRIC_FRAME_MS_LOW,
-    FM_METRIC_FRAME_MS_HIGH,
     FM_METRIC_TIMES_FLOOR,
     FM_METRIC_FRAGMENTS_PER_S,
     FM_METRIC_LAUNCHES,
@@ -84,6 +82,18 @@ typedef enum fm_metric {
     FM_METRIC_FRAME_TILES_SKIPPED,
     FM_METRIC_FRAME_FRAGMENTS_SHADED,
     FM_METRIC_FRAME_WRONG_TILES,
+    /* how busy the host was, of each launch */
+    FM_METRIC_LAUNCH_CPU_S,
+    FM_METRIC_TIMED_S,
+    FM_METRIC_TIMED_CPU_S,
+    FM_METRIC_WAITED_S,
+    FM_METRIC_OTHERS_CPU_S,
+    FM_METRIC_INVOLUNTARY_SWITCHES,
+    FM_METRIC_LOAD_BEGIN,
+    FM_METRIC_LOAD_END,
+    FM_METRIC_THROTTLED_S,
+    FM_METRIC_THERMAL_EVENTS,
+    FM_METRIC_CLOCK_SHARE,
     FM_METRIC_COUNT
 } fm_metric;
 
@@ -96,6 +106,7 @@ typedef enum fm_better {
 /* What one value of a metric belongs to, and so where it stands. */
 typedef enum fm_metric_of {
     FM_OF_FRAME,   /* a timed frame of a launch: rows of samples.csv; summary.csv has the median */
+    FM_OF_LAUNCH,  /* a launch: rows of samples.csv without a frame */
     FM_OF_CASE,    /* a case: summary.csv, or a row of samples.csv without launch and frame */
     FM_OF_SUMMARY, /* a case, from all its launches: summary.csv alone */
     FM_OF_REPORT   /* a case, worked out when it is charted: no file has it */
@@ -109,6 +120,8 @@ typedef struct fm_metric_info {
     fm_metric_of of;
     fm_better better;
     bool is_measured; /* it differs from run to run; else the same code gives the same value */
+    bool is_timed; /* it hangs on a clock, so that it needs an interval by launches; other numbers
+                      that are measured are counts, which fragments that race change little */
 } fm_metric_info;
 
 extern const fm_metric_info fm_metrics[FM_METRIC_COUNT];
@@ -118,16 +131,18 @@ typedef struct fm_metric_family {
     const char *prefix, *suffix;
     fm_metric_info info; /* name: "pass.NAME_ms" */
 } fm_metric_family;
-enum { FM_METRIC_FAMILY_COUNT = 4 };
+enum { FM_METRIC_FAMILY_COUNT = 6 };
 extern const fm_metric_family fm_metric_families[FM_METRIC_FAMILY_COUNT];
 
-/* Times of fewer samples say little: a claim takes them as within 15 %, a report says so, and a
- * case whose other samples were off full clock is unclear. */
+/* A case of which fewer samples are left, because others were off full clock, is unclear. */
 enum { FM_SAMPLES_WANTED = 5 };
+/* What a time needs for an interval that is of use. Of two launches it is very wide, of one there
+ * is none, and what is claimed of it stays unclear. */
+enum { FM_LAUNCHES_WANTED = 3 };
 
 /* false: no metric has this name; *metric is then untouched. */
 bool metric_find(fm_metric *metric, const char *name);
-/* Whether the name is a time in milliseconds, or a rate that follows from one. */
+/* Whether the name is a time, or a ratio or rate of times: is_timed. */
 bool metric_is_time(const char *name);
 /* The row of a metric, or of the family that the name belongs to; NULL: neither. */
 const fm_metric_info *metric_describe(const char *name);

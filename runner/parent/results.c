@@ -106,7 +106,10 @@ void results_destroy(fm_results *results)
 static void add_sample_row(fm_text *rows, const fm_results *results, const char *case_id,
                            uint32_t launch, const fm_answer_sample *sample)
 {
-    text_add(rows, "1,%s,%s,%u,%u,", results->run_id, case_id, launch, sample->frame);
+    text_add(rows, "1,%s,%s,%u,", results->run_id, case_id, launch);
+    if (sample->frame != FM_FRAME_NONE)
+        text_add(rows, "%u", sample->frame);
+    text_add(rows, ",");
     csv_add(rows, sample->metric);
     text_add(rows, ",");
     csv_add_real(rows, sample->value);
@@ -167,6 +170,26 @@ static fm_status keep_sample(fm_case_result *result, uint32_t launch,
         .metric = metric,
     };
     return FM_OK;
+}
+
+/* What stands in the journal of an older run has none. */
+static fm_status keep_launch(fm_text *rows, fm_results *results, size_t case_index, uint32_t launch,
+                             const json_t *answer, fm_error *err)
+{
+    const char *name;
+    json_t *value;
+    fm_status status = FM_OK;
+    json_object_foreach(answer_launch(answer), name, value)
+    {
+        const fm_answer_sample sample = { .frame = FM_FRAME_NONE,
+                                          .metric = name,
+                                          .unit = unit_of(name),
+                                          .value = json_number_value(value) };
+        add_sample_row(rows, results, results->plan->cases[case_index].id, launch, &sample);
+        if (status == FM_OK)
+            status = keep_sample(&results->cases[case_index], launch, &sample, err);
+    }
+    return status;
 }
 
 static void keep_device(fm_case_result *kept, const json_t *answer)
@@ -294,9 +317,11 @@ fm_status results_add(fm_results *results, size_t case_index, uint32_t launch, c
         const fm_answer_sample read = answer_sample(sample);
         add_sample_row(&rows, results, case_id, launch, &read);
     }
+    status = keep_launch(&rows, results, case_index, launch, answer, err);
     if (launch == 0)
         add_metric_rows(&rows, results, case_id, kept->metrics);
-    status = append(results, &rows, err);
+    if (status == FM_OK)
+        status = append(results, &rows, err);
     text_free(&rows);
     return status;
 }

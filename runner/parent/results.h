@@ -13,7 +13,10 @@
 #include "model/outcome.h"
 #include "plan/plan.h"
 
-/* One value of a metric of a frame (FM_OF_FRAME). Those of families only pass into samples.csv. */
+/* The frame of a number that holds for a launch as a whole (FM_OF_LAUNCH). */
+#define FM_FRAME_NONE UINT32_MAX
+
+/* One value of a metric of a frame or launch. Those of families only pass into samples.csv. */
 typedef struct fm_kept_sample {
     double value;
     uint32_t launch, frame;
@@ -76,5 +79,7 @@ void summary_off_clock(bool *is_off_clock, const fm_results *results, size_t cas
 /* The names of the columns, and one row; both with their end of line. */
 void summary_header(fm_text *text);
 void summary_row(fm_text *text, const fm_results *results, size_t case_index);
+/* Column `noisy` of that row: noise.h. */
+void summary_noise(fm_text *text, const fm_results *results, size_t case_index);
 
 #endif

@@ -8,6 +8,7 @@
 
 #include "base/random.h"
 #include "manifest.h"
+#include "noise.h"
 #include "run_internal.h"
 #include "worker/protocol.h"
 
@@ -178,6 +179,24 @@ static void count_outcomes(fm_run_result *result, const run_state *run)
     result->stop_signal = run->stop_signal;
 }
 
+/* How far the machine let the run measure in peace. */
+static fm_status sum_noise(fm_run_result *result, const run_state *run, fm_error *err)
+{
+    fm_noise_host host;
+    fm_status status = noise_of_host(&host, run->results, err);
+    for (size_t i = 0; i < run->plan->count && status == FM_OK; i++) {
+        fm_text reasons = { 0 };
+        summary_noise(&reasons, run->results, i);
+        if (reasons.failed)
+            status = fm_fail(err, FM_NO_MEMORY, "no memory for what is noisy");
+        result->noisy += reasons.length > 0;
+        text_free(&reasons);
+    }
+    result->waited_share = host.waited_share;
+    result->load = host.load;
+    return status;
+}
+
 static fm_status write_manifest(const run_state *run, bool is_ended, fm_error *err)
 {
     const fm_manifest_desc desc = {
@@ -223,6 +242,8 @@ fm_status run_cases(fm_run_result *result, const fm_plan *plan, const fm_plugin_
     }
     if (status == FM_OK)
         status = results_end(run.results, err);
+    if (status == FM_OK)
+        status = sum_noise(result, &run, err);
     if (status == FM_OK)
         status = write_manifest(&run, run.stop_signal == 0, err);
     if (status == FM_OK && run.stop_signal == 0)

@@ -32,9 +32,13 @@ typedef struct fm_run_desc {
 /* Outcome of a run, for the exit code. */
 typedef struct fm_run_result {
     uint32_t ok, not_supported, failed;
-    uint32_t skipped; /* not finished, because the run was interrupted */
-    int stop_signal;  /* SIGINT or SIGTERM that interrupted it, or 0 */
-    bool is_damaged;  /* FM_IO because the journal is damaged or foreign */
+    uint32_t skipped;    /* not finished, because the run was interrupted */
+    uint32_t noisy;      /* rows that are marked so in summary.csv */
+    double waited_share; /* of the time that threads could have run in launches on software devices,
+                            what they waited for a processor; NAN: unknown */
+    double load;         /* greatest load average; NAN: unknown */
+    int stop_signal;     /* SIGINT or SIGTERM that interrupted it, or 0 */
+    bool is_damaged;     /* FM_IO because the journal is damaged or foreign */
 } fm_run_result;
 
 /* Runs all launches that an earlier run in the same directory has not finished.

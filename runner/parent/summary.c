@@ -6,6 +6,7 @@
 #include "base/csv.h"
 #include "base/stats.h"
 #include "model/columns.h"
+#include "noise.h"
 #include "results.h"
 
 static const double clock_slack = 1.4; /* a canary above this many of the fastest is off clock */
@@ -16,11 +17,11 @@ typedef struct row_state {
     const fm_case *measured;
     const fm_case_result *result;
     const fm_plugin_entry *plugin; /* may be NULL */
-    fm_interval frame_ms;
-    size_t samples, excluded; /* frames used and left out */
-    const bool *is_off_clock; /* [launch * frames + frame] */
-    double *values;           /* room for all samples */
+    size_t samples, excluded;      /* frames used and left out */
+    bool *is_off_clock;            /* [launch * frames + frame] */
+    double *values;                /* room for all samples */
     uint32_t *groups;
+    double *by_launch; /* room for all launches */
 } row_state;
 
 static bool is_used(const row_state *row, const fm_kept_sample *sample)
@@ -30,7 +31,7 @@ static bool is_used(const row_state *row, const fm_kept_sample *sample)
            !row->is_off_clock[(size_t)sample->launch * frames + sample->frame];
 }
 
-/* Gathers one metric's used samples of one launch, or of all with launch = UINT32_MAX. */
+/* Gathers one metric's used samples of one launch, or of all. */
 static size_t gather(const row_state *row, fm_metric metric, uint32_t launch)
 {
     size_t count = 0;
@@ -48,6 +49,13 @@ static size_t gather(const row_state *row, fm_metric metric, uint32_t launch)
 static double median_of(const row_state *row, fm_metric metric, uint32_t launch)
 {
     return stats_median(row->values, gather(row, metric, launch));
+}
+
+static fm_interval interval_of_frames(const row_state *row, fm_metric metric)
+{
+    const size_t count = gather(row, metric, UINT32_MAX);
+    return stats_by_launch(
+        &(fm_samples){ row->values, row->groups, count, row->results->plan->launches });
 }
 
 static const char *method_version(const row_state *row)
@@ -137,6 +145,23 @@ static void write_options(fm_text *text, const row_state *row)
     text_free(&all);
 }
 
+static void add_noise(fm_text *text, const row_state *row)
+{
+    const uint32_t launches = row->results->plan->launches;
+    for (uint32_t i = 0; i < launches; i++)
+        row->by_launch[i] = median_of(row, FM_METRIC_FRAME_MS, i);
+    noise_reasons(text, row->result, launches, row->by_launch);
+}
+
+static void write_noisy(fm_text *text, const row_state *row)
+{
+    fm_text reasons = { 0 };
+    add_noise(&reasons, row);
+    csv_add(text, reasons.bytes != NULL ? reasons.bytes : "");
+    text->failed = text->failed || reasons.failed;
+    text_free(&reasons);
+}
+
 static void write_fact(fm_text *text, const row_state *row, fm_fact fact)
 {
     switch (fact) {
@@ -173,6 +198,9 @@ static void write_fact(fm_text *text, const row_state *row, fm_fact fact)
     case FM_FACT_OPTIONS:
         write_options(text, row);
         break;
+    case FM_FACT_NOISY:
+        write_noisy(text, row);
+        break;
     case FM_FACT_COUNT:
         break;
     }
@@ -180,36 +208,45 @@ static void write_fact(fm_text *text, const row_state *row, fm_fact fact)
 
 /* Store time, or the frame's where that is all that is timed, over the floor's, launch by launch:
  * both ran in one process, moments apart. */
-static void write_times_floor(fm_text *text, const row_state *row)
+static fm_interval times_floor(const row_state *row)
 {
     const bool is_span = row->measured->settings.timers == FM_TIMERS_FRAME;
     size_t count = 0;
-    double *ratios = calloc(row->results->plan->launches, sizeof *ratios);
-    for (uint32_t i = 0; ratios != NULL && i < row->results->plan->launches; i++) {
+    for (uint32_t i = 0; i < row->results->plan->launches; i++) {
         const double ms = median_of(row, is_span ? FM_METRIC_FRAME_MS : FM_METRIC_STORE_MS, i);
         const double floor_ms =
             median_of(row, is_span ? FM_METRIC_FLOOR_FRAME_MS : FM_METRIC_FLOOR_STORE_MS, i);
         if (!isnan(ms) && floor_ms > 0.0)
-            ratios[count++] = ms / floor_ms;
+            row->by_launch[count++] = ms / floor_ms;
     }
-    if (ratios == NULL)
-        text->failed = true;
-    else
-        csv_add_real(text, stats_median(ratios, count));
-    free(ratios);
+    return stats_interval(row->by_launch, count);
+}
+
+/* The slowest frame has the lowest rate. */
+static fm_interval fragments_per_s(const row_state *row)
+{
+    const json_t *fragments = metric_of(row, FM_METRIC_FRAGMENTS_GENERATED);
+    const fm_interval ms = interval_of_frames(row, FM_METRIC_FRAME_MS);
+    if (!json_is_number(fragments) || !(ms.median > 0.0))
+        return (fm_interval){ NAN, NAN, NAN };
+    const double per_ms = json_number_value(fragments) * 1e3;
+    return (fm_interval){ per_ms / ms.median, per_ms / ms.high, per_ms / ms.low };
+}
+
+/* A metric that has an interval, in the columns beside it. */
+static fm_interval interval_of(const row_state *row, fm_metric metric)
+{
+    if (metric == FM_METRIC_TIMES_FLOOR)
+        return times_floor(row);
+    if (metric == FM_METRIC_FRAGMENTS_PER_S)
+        return fragments_per_s(row);
+    return interval_of_frames(row, metric);
 }
 
 static void write_distinct_images(fm_text *text, const row_state *row)
 {
     if (row->result->image_count > 0)
         text_add(text, "%zu", row->result->image_count);
-}
-
-static void write_rate(fm_text *text, const row_state *row)
-{
-    const json_t *fragments = metric_of(row, FM_METRIC_FRAGMENTS_GENERATED);
-    if (json_is_number(fragments) && row->frame_ms.median > 0.0)
-        csv_add_real(text, json_number_value(fragments) / (row->frame_ms.median / 1e3));
 }
 
 /* What follows from all launches of a case. */
@@ -219,23 +256,17 @@ static void write_summary_metric(fm_text *text, const row_state *row, fm_metric 
         text_add(text, "%u", row->result->done);
     else if (metric == FM_METRIC_SAMPLES)
         text_add(text, "%zu", row->samples);
-    else if (metric == FM_METRIC_FRAME_MS_LOW)
-        csv_add_real(text, row->frame_ms.low);
-    else if (metric == FM_METRIC_FRAME_MS_HIGH)
-        csv_add_real(text, row->frame_ms.high);
-    else if (metric == FM_METRIC_TIMES_FLOOR)
-        write_times_floor(text, row);
     else if (metric == FM_METRIC_DISTINCT_IMAGES)
         write_distinct_images(text, row);
-    else if (metric == FM_METRIC_FRAGMENTS_PER_S)
-        write_rate(text, row);
+    else
+        csv_add_real(text, interval_of(row, metric).median);
 }
 
 static void write_metric(fm_text *text, const row_state *row, fm_metric metric)
 {
     switch (fm_metrics[metric].of) {
     case FM_OF_FRAME:
-        csv_add_real(text, median_of(row, metric, UINT32_MAX));
+        csv_add_real(text, interval_of(row, metric).median);
         break;
     case FM_OF_CASE:
         write_case_metric(text, row, metric);
@@ -243,6 +274,7 @@ static void write_metric(fm_text *text, const row_state *row, fm_metric metric)
     case FM_OF_SUMMARY:
         write_summary_metric(text, row, metric);
         break;
+    case FM_OF_LAUNCH:
     case FM_OF_REPORT:
         break;
     }
@@ -255,10 +287,16 @@ static void write_column(fm_text *text, const row_state *row, const fm_column *c
         write_fact(text, row, column->fact);
         break;
     case FM_COLUMN_KEY:
-        write_key(text, row, column->key);
+        write_key(text, row, column->name);
         break;
     case FM_COLUMN_METRIC:
         write_metric(text, row, column->metric);
+        break;
+    case FM_COLUMN_LOW:
+        csv_add_real(text, interval_of(row, column->metric).low);
+        break;
+    case FM_COLUMN_HIGH:
+        csv_add_real(text, interval_of(row, column->metric).high);
         break;
     }
 }
@@ -310,35 +348,56 @@ static void count_frames(row_state *row)
     row->excluded = all - row->samples;
 }
 
-void summary_row(fm_text *text, const fm_results *results, size_t case_index)
+/* false: no memory. close_row also then. */
+static bool open_row(row_state *row, const fm_results *results, size_t case_index)
 {
     const fm_plan *plan = results->plan;
     const fm_case_result *result = &results->cases[case_index];
     const size_t room = result->sample_count + 1;
-    bool *is_off_clock = calloc((size_t)plan->launches * plan->frames + 1, sizeof *is_off_clock);
-    row_state row = {
+    *row = (row_state){
         .results = results,
         .measured = &plan->cases[case_index],
         .result = result,
         .plugin = plugin_list_find(results->plugins, plan->cases[case_index].method),
-        .is_off_clock = is_off_clock,
+        .is_off_clock = calloc((size_t)plan->launches * plan->frames + 1, sizeof(bool)),
         .values = calloc(room, sizeof(double)),
         .groups = calloc(room, sizeof(uint32_t)),
+        .by_launch = calloc((size_t)plan->launches + 1, sizeof(double)),
     };
-    if (is_off_clock == NULL || row.values == NULL || row.groups == NULL) {
+    if (row->is_off_clock == NULL || row->values == NULL || row->groups == NULL ||
+        row->by_launch == NULL)
+        return false;
+    summary_off_clock(row->is_off_clock, results, case_index);
+    count_frames(row);
+    return true;
+}
+
+static void close_row(row_state *row)
+{
+    free(row->is_off_clock);
+    free(row->values);
+    free(row->groups);
+    free(row->by_launch);
+}
+
+void summary_row(fm_text *text, const fm_results *results, size_t case_index)
+{
+    row_state row = { 0 };
+    if (!open_row(&row, results, case_index))
         text->failed = true;
-        goto out;
-    }
-    summary_off_clock(is_off_clock, results, case_index);
-    count_frames(&row);
-    const fm_samples samples = { row.values, row.groups, row.samples, plan->launches };
-    row.frame_ms = stats_bootstrap(&samples, plan->seed);
-    for (int i = 0; i < FM_COLUMN_COUNT; i++) {
+    for (int i = 0; i < FM_COLUMN_COUNT && !text->failed; i++) {
         write_column(text, &row, &fm_columns[i]);
         text_add(text, i + 1 < FM_COLUMN_COUNT ? "," : "\n");
     }
-out:
-    free(is_off_clock);
-    free(row.values);
-    free(row.groups);
+    close_row(&row);
+}
+
+void summary_noise(fm_text *text, const fm_results *results, size_t case_index)
+{
+    row_state row = { 0 };
+    if (open_row(&row, results, case_index))
+        add_noise(text, &row);
+    else
+        text->failed = true;
+    close_row(&row);
 }

@@ -54,7 +54,7 @@ typedef struct fm_plan_request {
 typedef struct fm_plan {
     fm_case *cases;
     size_t count;
-    uint64_t seed;           /* of the run: interleaving, bootstrap */
+    uint64_t seed;           /* of the order of launches */
     uint32_t launches;       /* the most of any case */
     uint32_t frames, warmup; /* the same */
 } fm_plan;

@@ -180,6 +180,39 @@ void answer_add_measured(json_t *answer, const fm_answer_desc *desc)
     add_modelled(answer, desc);
 }
 
+static void add_known(json_t *launch, fm_metric metric, double value)
+{
+    if (isfinite(value))
+        answer_set_number(launch, metric, value);
+}
+
+static void add_timed_part(json_t *launch, const fm_host_load *begin, const fm_host_load *end)
+{
+    const double own_s = end->own_cpu_s - begin->own_cpu_s;
+    const double machine_s = end->machine_cpu_s - begin->machine_cpu_s;
+    add_known(launch, FM_METRIC_TIMED_S, end->clock_s - begin->clock_s);
+    add_known(launch, FM_METRIC_TIMED_CPU_S, own_s);
+    add_known(launch, FM_METRIC_WAITED_S, end->waited_s - begin->waited_s);
+    if (!isnan(machine_s)) /* its clock is coarse, and may lag behind the process's */
+        add_known(launch, FM_METRIC_OTHERS_CPU_S, fmax(machine_s - own_s, 0.0));
+    add_known(launch, FM_METRIC_INVOLUNTARY_SWITCHES,
+              end->involuntary_switches - begin->involuntary_switches);
+    add_known(launch, FM_METRIC_LOAD_BEGIN, begin->load);
+    add_known(launch, FM_METRIC_LOAD_END, end->load);
+    add_known(launch, FM_METRIC_THROTTLED_S, end->throttled_s - begin->throttled_s);
+    add_known(launch, FM_METRIC_THERMAL_EVENTS, end->thermal_count - begin->thermal_count);
+    add_known(launch, FM_METRIC_CLOCK_SHARE, end->clock_share);
+}
+
+void answer_add_launch(json_t *answer, const fm_measurement *m)
+{
+    json_t *launch = json_object();
+    add_known(launch, FM_METRIC_LAUNCH_CPU_S, host_load_own_cpu_s());
+    if (m->sample_count > 0)
+        add_timed_part(launch, &m->begin, &m->end);
+    answer_set_launch(answer, launch);
+}
+
 void answer_add_truth(json_t *answer, const fm_truth *truth)
 {
     json_t *metrics = json_object();

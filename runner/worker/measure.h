@@ -4,6 +4,7 @@
 #define FM_MEASURE_H
 
 #include "base/image.h"
+#include "host_load.h"
 #include "instance/instance.h"
 #include "truth/check.h"
 #include "truth/truth.h"
@@ -23,8 +24,9 @@ typedef struct fm_sample {
 typedef struct fm_measurement {
     fm_sample *samples; /* [sample_count]; owned */
     uint32_t sample_count;
-    bool is_floors; /* what failed was the floor, not the method */
-    bool is_long;   /* a frame took over MEASURE_LONG_FRAME_NS: two samples only */
+    bool is_floors;          /* what failed was the floor, not the method */
+    bool is_long;            /* a frame took over MEASURE_LONG_FRAME_NS: two samples only */
+    fm_host_load begin, end; /* around the timed frames */
     uint64_t bytes_allocated, bytes_predicted, bytes_used;
     uint64_t lost;
     uint32_t scene_passes;  /* of the last timed frame */

@@ -101,6 +101,7 @@ static fm_status take_samples(fm_measurement *measurement, const launch_pair *pa
     }
     measurement->lost = 0;
     frame_images_begin(&images, measurement, desc);
+    host_load_read(&measurement->begin, "");
     for (uint32_t i = 0; i < desc->frames && status == FM_OK; i++) {
         fm_sample *sample = &measurement->samples[i];
         if (is_long && i >= LONG_FRAME_SAMPLES)
@@ -113,6 +114,7 @@ static fm_status take_samples(fm_measurement *measurement, const launch_pair *pa
         if (status == FM_OK)
             status = frame_images_add(&images, measurement, pair->method, err);
     }
+    host_load_read(&measurement->end, "");
     if (status == FM_OK)
         status = frame_images_settle(&images, measurement, err);
     frame_images_free(&images);

@@ -188,6 +188,11 @@ void answer_set_measured(json_t *answer, json_t *metrics, json_t *samples)
     json_object_set_new(answer, "samples", samples);
 }
 
+void answer_set_launch(json_t *answer, json_t *launch)
+{
+    json_object_set_new(answer, "launch", launch);
+}
+
 void answer_set_modelled(json_t *answer, json_t *scene, json_t *passes, json_t *buffers)
 {
     json_object_set_new(
@@ -230,6 +235,21 @@ static const char *sample_fault(const json_t *sample)
     return NULL;
 }
 
+/* An object whose members are numbers; NULL is one of none. */
+static bool is_of_numbers(json_t *object)
+{
+    const char *name;
+    json_t *value;
+    if (object != NULL && !json_is_object(object))
+        return false;
+    json_object_foreach(object, name, value)
+    {
+        if (!json_is_number(value))
+            return false;
+    }
+    return true;
+}
+
 const char *answer_fault(const json_t *answer)
 {
     fm_case_status status;
@@ -246,6 +266,8 @@ const char *answer_fault(const json_t *answer)
         return "'status' and 'is_runs_fault' contradict each other";
     if (metrics != NULL && !json_is_object(metrics))
         return "'metrics' is not an object";
+    if (!is_of_numbers(answer_launch(answer)))
+        return "'launch' is not an object of numbers";
     if (samples != NULL && !json_is_array(samples))
         return "'samples' is not a list";
     if (hashes != NULL && !json_is_array(hashes))
@@ -299,6 +321,11 @@ json_t *answer_metrics(const json_t *answer)
 json_t *answer_modelled(const json_t *answer)
 {
     return json_object_get(answer, "modelled");
+}
+
+json_t *answer_launch(const json_t *answer)
+{
+    return json_object_get(answer, "launch");
 }
 
 json_t *answer_samples(const json_t *answer)

@@ -24,6 +24,7 @@
  *     "image_hash": "16 hex digits",        of the last timed frame
  *     "image_hashes": ["16 hex digits"],    of all timed frames, each once
  *     "metrics": { "n": 128, ... },         one number a case, by its metric's name
+ *     "launch": { "timed_s": 0.21, ... },   one number a launch, the same
  *     "samples": [ { "frame": 0, "metric": "store_ms", "value": 1.25, "unit": "ms" }, ... ] }
  *
  * Names, units and meanings of metrics are in model/metrics.h. With "check" the answer has the
@@ -90,6 +91,7 @@ void answer_set_image_hash(json_t *answer, uint64_t hash);
 void answer_set_image_hashes(json_t *answer, uint64_t hash, const uint64_t *hashes, size_t count);
 /* Takes the references. */
 void answer_set_measured(json_t *answer, json_t *metrics, json_t *samples);
+void answer_set_launch(json_t *answer, json_t *launch);
 void answer_set_modelled(json_t *answer, json_t *scene, json_t *passes, json_t *buffers);
 /* One element of samples. */
 void answer_add_sample_named(json_t *samples, uint32_t frame, const char *metric, double value);
@@ -112,6 +114,7 @@ json_t *answer_image_hashes(const json_t *answer);   /* borrowed; NULL: none */
 json_t *answer_metrics(const json_t *answer);        /* the same */
 json_t *answer_modelled(const json_t *answer);       /* the same */
 json_t *answer_samples(const json_t *answer);        /* the same */
+json_t *answer_launch(const json_t *answer);         /* the same */
 
 typedef struct fm_answer_sample {
     uint32_t frame;

@@ -366,6 +366,8 @@ int worker_main(const char *request_path, const char *answer_path, const fm_devi
     } else {
         answer_set_verdict(job.answer, word, job.error.message);
     }
+    if (!job.request->is_truth_job)
+        answer_add_launch(job.answer, &job.measurement);
     const int written = json_dump_file(job.answer, answer_path, JSON_INDENT(1));
     release(&job);
     return written == 0 ? 0 : WORKER_EXIT_NO_ANSWER;

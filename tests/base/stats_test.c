@@ -1,4 +1,4 @@
-/* Medians, bootstrap intervals and the random source. */
+/* Medians, their intervals by launches, and the random source. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -24,57 +24,72 @@ static void median_of_odd_and_even_counts(void **state)
     assert_true(stats_median(even, 4) == 2.5);
 }
 
-static void bootstrap_of_one_sample_is_that_sample(void **state)
+static void interval_of_one_launch_has_no_ends(void **state)
 {
     (void)state;
-    const double value = 7.5;
-    const uint32_t group = 0;
-    const fm_interval i = stats_bootstrap(&(fm_samples){ &value, &group, 1, 1 }, 1);
-    assert_true(i.low == 7.5 && i.median == 7.5 && i.high == 7.5);
+    const double values[] = { 7.0, 8.0, 7.5 };
+    const uint32_t groups[] = { 0, 0, 0 };
+    const fm_interval i = stats_by_launch(&(fm_samples){ values, groups, 3, 1 });
+    assert_true(i.median == 7.5);
+    assert_false(interval_is_known(&i));
 }
 
-static void bootstrap_of_nothing_is_not_a_number(void **state)
+static void interval_of_nothing_is_not_a_number(void **state)
 {
     (void)state;
-    const fm_interval i = stats_bootstrap(&(fm_samples){ NULL, NULL, 0, 0 }, 1);
+    const fm_interval i = stats_by_launch(&(fm_samples){ NULL, NULL, 0, 0 });
     assert_true(isnan(i.low) && isnan(i.median) && isnan(i.high));
 }
 
-static void bootstrap_repeats_for_a_seed(void **state)
+/* However many frames a launch has, it counts once. */
+static void interval_is_of_the_medians_of_launches(void **state)
 {
     (void)state;
-    const double values[] = { 1.0, 2.0, 4.0, 8.0, 16.0, 32.0 };
-    const uint32_t groups[] = { 0, 1, 2, 0, 1, 2 };
-    const fm_samples samples = { values, groups, 6, 3 };
-    const fm_interval a = stats_bootstrap(&samples, 42), b = stats_bootstrap(&samples, 42);
-    assert_true(a.low == b.low && a.median == b.median && a.high == b.high);
-    assert_true(a.low <= a.median && a.median <= a.high && a.low < a.high);
+    const double values[] = { 4.0, 1.0, 2.0, 2.0, 9.0, 3.0, 3.0, 3.0 };
+    const uint32_t groups[] = { 2, 0, 0, 0, 0, 1, 1, 1 }; /* medians 2, 3, 4 */
+    const fm_interval i = stats_by_launch(&(fm_samples){ values, groups, 8, 5 });
+    assert_true(i.median == 3.0);
+    assert_true(fabs(i.low - 2.0 / pow(2.0, 0.815)) < 1e-12);
+    assert_true(fabs(i.high - 4.0 * pow(2.0, 0.815)) < 1e-12);
 }
 
-/* Launches differ, frames of one do not: resampling frames alone would give a narrow interval. */
-static void bootstrap_sees_the_spread_of_launches(void **state)
+static void interval_of_equal_launches_is_exact(void **state)
 {
     (void)state;
-    double values[90];
-    uint32_t by_launch[90], as_one[90];
-    for (uint32_t i = 0; i < 90; i++) {
-        by_launch[i] = i / 30;
-        as_one[i] = 0;
-        values[i] = 10.0 * (i / 30) + 0.01 * (i % 30);
-    }
-    const fm_interval wide = stats_bootstrap(&(fm_samples){ values, by_launch, 90, 3 }, 1);
-    const fm_interval narrow = stats_bootstrap(&(fm_samples){ values, as_one, 90, 1 }, 1);
-    assert_true(wide.high - wide.low > 15.0);
-    assert_true(narrow.high - narrow.low < 15.0);
-}
-
-static void bootstrap_leaves_out_empty_groups(void **state)
-{
-    (void)state;
-    const double values[] = { 3.0, 3.0 };
-    const uint32_t groups[] = { 4, 1 };
-    const fm_interval i = stats_bootstrap(&(fm_samples){ values, groups, 2, 6 }, 9);
+    double values[] = { 3.0, 3.0, 3.0 };
+    const fm_interval i = stats_interval(values, 3);
     assert_true(i.low == 3.0 && i.median == 3.0 && i.high == 3.0);
+}
+
+/* Times may be 0 where a clock is coarse: there are no logarithms then. */
+static void interval_of_values_with_zero_is_widened_by_their_range(void **state)
+{
+    (void)state;
+    double values[] = { 2.0, 0.0, 1.0 };
+    const fm_interval i = stats_interval(values, 3);
+    assert_true(fabs(i.low + 1.63) < 1e-12);
+    assert_true(fabs(i.high - 3.63) < 1e-12);
+}
+
+/* All five lie below the median, or above it, once in sixteen times. */
+static void interval_of_five_launches_is_their_range(void **state)
+{
+    (void)state;
+    double values[] = { 5.0, 1.0, 4.0, 2.0, 3.0 };
+    const fm_interval i = stats_interval(values, 5);
+    assert_true(i.low == 1.0 && i.median == 3.0 && i.high == 5.0);
+}
+
+/* Of ten, ranks 2 and 9 hold 97.85 %, ranks 3 and 8 hold 89.06 %: 95 % lies 0.3245 of the way
+ * between by probability, which is 0.6577 of the way by value (Hettmansperger and Sheather). */
+static void interval_of_many_launches_lies_between_their_ranks(void **state)
+{
+    (void)state;
+    double values[] = { 10, 9, 8, 7, 6, 5, 4, 3, 2, 1 };
+    const fm_interval i = stats_interval(values, 10);
+    assert_true(i.median == 5.5);
+    assert_true(fabs(i.low - 2.6577) < 1e-4);
+    assert_true(fabs(i.high - (11.0 - i.low)) < 1e-9);
 }
 
 /* First values of splitmix64 from state 0, as its author published them. */
@@ -113,11 +128,13 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(median_of_nothing_is_not_a_number),
         cmocka_unit_test(median_of_odd_and_even_counts),
-        cmocka_unit_test(bootstrap_of_one_sample_is_that_sample),
-        cmocka_unit_test(bootstrap_of_nothing_is_not_a_number),
-        cmocka_unit_test(bootstrap_repeats_for_a_seed),
-        cmocka_unit_test(bootstrap_sees_the_spread_of_launches),
-        cmocka_unit_test(bootstrap_leaves_out_empty_groups),
+        cmocka_unit_test(interval_of_one_launch_has_no_ends),
+        cmocka_unit_test(interval_of_nothing_is_not_a_number),
+        cmocka_unit_test(interval_is_of_the_medians_of_launches),
+        cmocka_unit_test(interval_of_equal_launches_is_exact),
+        cmocka_unit_test(interval_of_values_with_zero_is_widened_by_their_range),
+        cmocka_unit_test(interval_of_five_launches_is_their_range),
+        cmocka_unit_test(interval_of_many_launches_lies_between_their_ranks),
         cmocka_unit_test(student_falls_towards_the_normal_distribution),
         cmocka_unit_test(random_next_is_splitmix64),
         cmocka_unit_test(random_below_is_uniform),

@@ -3,14 +3,17 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #include <cmocka.h>
+#include <glob.h>
 
 #include "base/text.h"
 #include "model/figure_file.h"
+#include "model/metrics.h"
 
 /* Reads the text as a figure's file, which the caller closes. */
 static fm_status read_text(fm_figure_file *file, const char *text, fm_error *err)
@@ -79,12 +82,54 @@ static void a_damaged_figure_still_tells_its_title(void **state)
     figure_file_close(&file);
 }
 
+/* What a spec says in this block of `run`, or the smoke size in its place; NULL: neither. */
+static const char *said(const fm_yaml *block, const fm_yaml *smoke, const char *key)
+{
+    const fm_yaml *value = smoke != NULL ? yaml_tree_find(smoke, key) : NULL;
+    value = value != NULL ? value : yaml_tree_find(block, key);
+    return value != NULL ? value->text : NULL;
+}
+
+static void expect_launches(const fm_figure_file *file, const fm_yaml *block, const fm_yaml *smoke)
+{
+    const fm_yaml *feeds = yaml_tree_find(block, "feeds");
+    const char *launches = said(block, smoke, "launches");
+    const bool is_simulated =
+        feeds != NULL && feeds->count == 1 && strcmp(feeds->items[0].text, "frames") == 0;
+    if (!is_simulated && launches != NULL && atoi(launches) < FM_LAUNCHES_WANTED)
+        fail_msg("%s: %s launches, of which times have no useful interval", file->id, launches);
+}
+
+static void figures_have_as_many_launches_as_intervals_need(void **state)
+{
+    (void)state;
+    char pattern[512];
+    glob_t files;
+    snprintf(pattern, sizeof pattern, "%s/reports/figures/*.yml", getenv("FRAGMARK_SOURCE_DIR"));
+    assert_int_equal(glob(pattern, 0, NULL, &files), 0);
+    for (size_t i = 0; i < files.gl_pathc; i++) {
+        fm_figure_file file;
+        fm_error err = { 0 };
+        assert_int_equal(figure_file_read(&file, files.gl_pathv[i], &err), FM_OK);
+        const bool is_list = file.run != NULL && file.run->kind == FM_YAML_LIST;
+        const size_t count = is_list ? file.run->count : file.run != NULL;
+        for (size_t j = 0; j < count; j++) {
+            const fm_yaml *block = is_list ? &file.run->items[j] : file.run;
+            expect_launches(&file, block, NULL);
+            expect_launches(&file, block, file.smoke);
+        }
+        figure_file_close(&file);
+    }
+    globfree(&files);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(figure_file_hands_out_its_parts),
         cmocka_unit_test(figure_file_refuses_with_the_line),
         cmocka_unit_test(a_damaged_figure_still_tells_its_title),
+        cmocka_unit_test(figures_have_as_many_launches_as_intervals_need),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,6 +3,7 @@
 #include <stddef.h>
 
 #include <cmocka.h>
+#include <math.h>
 
 #include "base/csv.h"
 #include "fake_plan.h"
@@ -112,7 +113,11 @@ static void summary_has_the_columns_of_the_design_in_order(void **state)
         "reference_ms,store_ms,resolve_ms,times_floor,bytes_allocated,bytes_predicted,bytes_used,"
         "fragments_generated,fragments_stored,fragments_lost,missing,extra,misordered,"
         "depth_ulp_max,rmse,psnr_db,max_abs,ssim,flip,truncation_rmse,distinct_images,"
-        "frame_wall_ms,fragments_per_s,tied_pixels,wrong_tiles\n");
+        "frame_wall_ms,fragments_per_s,tied_pixels,wrong_tiles,clear_ms_low,clear_ms_high,count_ms_"
+        "low,count_ms_high,"
+        "reference_ms_low,reference_ms_high,store_ms_low,store_ms_high,resolve_ms_low,"
+        "resolve_ms_high,times_floor_low,times_floor_high,frame_wall_ms_low,frame_wall_ms_high,"
+        "fragments_per_s_low,fragments_per_s_high,noisy\n");
     text_free(&header);
 }
 
@@ -144,6 +149,65 @@ static void summary_row_holds_medians_ratios_and_rates(void **state)
     assert_field(results, "clear_ms", "");
     assert_field(results, "method_version", "7");
     assert_true(results_is_finished(results, 0));
+    results_destroy(results);
+    fake_close(&fake);
+}
+
+static double number_of(const fm_results *results, const char *name)
+{
+    char field[256];
+    field_of(field, results, name);
+    assert_string_not_equal(field, "");
+    return atof(field);
+}
+
+static void expect_number(const fm_results *results, const char *name, double expected)
+{
+    const double number = number_of(results, name);
+    if (fabs(number - expected) > 1e-6 * fabs(expected))
+        fail_msg("%s is %.9g, not %.9g", name, number, expected);
+}
+
+/* Store times 2, 4 and 8: the range is widened by 4 to the power of 0.815. The floor takes 0.5. */
+static void every_time_and_ratio_has_an_interval_by_launches(void **state)
+{
+    (void)state;
+    fake_plan fake;
+    fm_results *results = created(&fake, 3);
+    const double times[3][4] = { { 2, 2, 9, -1 }, { 4, 1, 4, -1 }, { 8, 8, 8, -1 } };
+    const double steady[] = { 10, 10, 10 }, wide = pow(4.0, 0.815);
+    for (uint32_t i = 0; i < 3; i++)
+        add(results, i, times[i], steady);
+    expect_number(results, "store_ms", 4);
+    expect_number(results, "store_ms_low", 2 / wide);
+    expect_number(results, "store_ms_high", 8 * wide);
+    expect_number(results, "frame_ms_low", 4 / wide);
+    expect_number(results, "frame_ms_high", 16 * wide);
+    expect_number(results, "times_floor", 8);
+    expect_number(results, "times_floor_low", 4 / wide);
+    expect_number(results, "times_floor_high", 16 * wide);
+    expect_number(results, "fragments_per_s", 1000 / 8e-3);
+    expect_number(results, "fragments_per_s_low", 1000 / (16e-3 * wide));
+    expect_number(results, "fragments_per_s_high", 1000 / (4e-3 / wide));
+    assert_field(results, "clear_ms_low", "");
+    results_destroy(results);
+    fake_close(&fake);
+}
+
+static void one_launch_has_no_interval(void **state)
+{
+    (void)state;
+    static const char *const ends[] = { "frame_ms_low",      "frame_ms_high",
+                                        "store_ms_low",      "store_ms_high",
+                                        "times_floor_low",   "times_floor_high",
+                                        "frame_wall_ms_low", "fragments_per_s_low" };
+    fake_plan fake;
+    fm_results *results = created(&fake, 1);
+    const double store_ms[] = { 1, 2, 3, 4, 5, -1 }, steady[] = { 10, 10, 10, 10, 10 };
+    add(results, 0, store_ms, steady);
+    assert_field(results, "store_ms", "3");
+    for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++)
+        assert_field(results, ends[i], "");
     results_destroy(results);
     fake_close(&fake);
 }
@@ -229,6 +293,23 @@ static void samples_are_kept_with_metrics_that_have_no_column(void **state)
     fake_close(&fake);
 }
 
+static void numbers_of_a_launch_are_rows_without_a_frame(void **state)
+{
+    (void)state;
+    fake_plan fake;
+    fm_results *results = created(&fake, 1);
+    json_t *answer =
+        json_pack("{s:s, s:{s:f, s:i}}", "status", "ok", "launch", "waited_s", 0.25, "load_end", 7);
+    assert_int_equal(results_add(results, 0, 0, answer, NULL), FM_OK);
+    json_decref(answer);
+    char *samples = fake_read(&fake, "samples.csv");
+    assert_non_null(strstr(samples, "1,run,0000000000000001,0,,waited_s,0.25,s\n"
+                                    "1,run,0000000000000001,0,,load_end,7,\n"));
+    free(samples);
+    results_destroy(results);
+    fake_close(&fake);
+}
+
 static void a_case_has_the_worst_status_of_its_launches(void **state)
 {
     (void)state;
@@ -277,11 +358,14 @@ int main(void)
         cmocka_unit_test(csv_quotes_as_rfc_4180_says),
         cmocka_unit_test(summary_has_the_columns_of_the_design_in_order),
         cmocka_unit_test(summary_row_holds_medians_ratios_and_rates),
+        cmocka_unit_test(every_time_and_ratio_has_an_interval_by_launches),
+        cmocka_unit_test(one_launch_has_no_interval),
         cmocka_unit_test(times_floor_is_of_frames_where_they_have_one_timer),
         cmocka_unit_test(summary_leaves_k_empty_where_it_is_not_used),
         cmocka_unit_test(summary_options_name_what_is_not_as_usual),
         cmocka_unit_test(summary_excludes_samples_off_full_clock),
         cmocka_unit_test(samples_are_kept_with_metrics_that_have_no_column),
+        cmocka_unit_test(numbers_of_a_launch_are_rows_without_a_frame),
         cmocka_unit_test(a_case_has_the_worst_status_of_its_launches),
         cmocka_unit_test(skipped_cases_tell_refusal_from_missing_support),
     };

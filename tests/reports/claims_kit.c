@@ -1,5 +1,7 @@
 #include "claims_kit.h"
 
+#include "base/csv.h"
+
 static const char header[] =
     "schema,case_id,status,message,method,method_version,device,device_name,feed,scene,width_px,"
     "height_px,n,k,r,pixel_density,fragment_probability,tessellation,order,seed,options,launches,"
@@ -25,36 +27,52 @@ static void add_given(fm_text *csv, double number)
     text_add(csv, ",");
 }
 
+/* The time of each launch; returns how many there are. */
+static int add_times(double times[16], const fake *row)
+{
+    const int launches = row->launches == 0 ? 6 : row->launches;
+    const double noise = row->noise > 0.0 ? row->noise : 0.01;
+    for (int i = 0; i < launches; i++) {
+        const double off = launches == 1 ? 0.0 : noise * (2.0 * i / (launches - 1) - 1.0);
+        times[i] = row->frame_ms * (1.0 + off);
+    }
+    return launches;
+}
+
 static void add_summary(fm_text *csv, const fake *row, int index)
 {
     const char *device = given(row->device, "soft"), *status = given(row->status, "ok");
     const bool is_ok = strcmp(status, "ok") == 0;
-    const int samples = row->samples == 0 ? 6 : row->samples;
+    double times[16];
+    const int launches = add_times(times, row);
+    const fm_interval frame = stats_interval(times, (size_t)launches);
     text_add(csv, "1,c%d,%s,,%s,1,%s,%s,%s,layers,64,32,%g,", index, status, row->method, device,
              strcmp(device, "soft") == 0 ? "llvmpipe" : "H100", given(row->feed, "raster"),
              row->n > 0.0 ? row->n : 16.0);
     add_given(csv, row->k);
     add_given(csv, row->r);
-    text_add(csv, "%g,1,1,random,%u,%s,2,", row->pixel_density, row->seed > 0 ? row->seed : 1,
-             given(row->options, ""));
+    text_add(csv, "%g,1,1,random,%u,%s,%d,", row->pixel_density, row->seed > 0 ? row->seed : 1,
+             given(row->options, ""), launches);
     if (!is_ok) {
         text_add(csv, "0,,,,,,,,,,,,,,,,,,,,,,,,,,,,\n");
         return;
     }
-    text_add(csv, "%d,%g,%g,%g,0.1,,,%g,%g,2,%g,4096,1,%g,1,0,%g,0,0,0,0,inf,0,1,,,1,1,1\n",
-             samples, row->frame_ms, row->frame_ms * 0.9, row->frame_ms * 1.1,
+    text_add(csv, "%d,%g,", launches, row->frame_ms);
+    csv_add_real(csv, frame.low);
+    text_add(csv, ",");
+    csv_add_real(csv, frame.high);
+    text_add(csv, ",0.1,,,%g,%g,2,%g,4096,1,%g,1,0,%g,0,0,0,0,inf,0,1,,,1,1,1\n",
              row->frame_ms - row->resolve_ms, row->resolve_ms, row->bytes,
              1000.0 * row->pixel_density, row->missing);
 }
 
 static void add_samples(fm_text *csv, const fake *row, int index)
 {
-    const int samples = row->samples == 0 ? 6 : row->samples;
-    const double noise = row->noise > 0.0 ? row->noise : 0.01;
-    for (int i = 0; i < samples && row->status == NULL; i++) {
-        const double off = samples == 1 ? 0.0 : noise * (2.0 * i / (samples - 1) - 1.0);
-        text_add(csv, "1,r,c%d,0,%d,frame_ms,%.9g,ms\n", index, i, row->frame_ms * (1.0 + off));
-        text_add(csv, "1,r,c%d,0,%d,resolve_ms,%.9g,ms\n", index, i, row->resolve_ms);
+    double times[16];
+    const int launches = add_times(times, row);
+    for (int i = 0; i < launches && row->status == NULL; i++) {
+        text_add(csv, "1,r,c%d,%d,0,frame_ms,%.9g,ms\n", index, i, times[i]);
+        text_add(csv, "1,r,c%d,%d,0,resolve_ms,%.9g,ms\n", index, i, row->resolve_ms);
     }
 }
 

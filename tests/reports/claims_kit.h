@@ -21,13 +21,13 @@
 #include "read/result_files.h"
 #include "read/table.h"
 
-/* One fabricated case. Samples are frame_ms with a spread of `noise`. */
+/* One fabricated case. Its launches have one frame each, and spread over `noise`. */
 typedef struct fake {
     const char *method;
     double k, pixel_density, frame_ms, resolve_ms;
     const char *options, *status, *device, *feed; /* NULL: "", ok, soft, raster */
     double noise;                                 /* 0: one percent */
-    int samples;                                  /* 0: 6 */
+    int launches;                                 /* 0: 6 */
     double missing, bytes;
     unsigned seed; /* 0: 1 */
     double n, r;   /* 0: n is 16, r is empty */

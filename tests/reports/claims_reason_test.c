@@ -39,6 +39,49 @@ static void unclear_verdicts_say_why(void **state)
     }
 }
 
+/* Each form, on rows that would decide if their launches were more than one. */
+static void times_of_one_launch_are_unclear(void **state)
+{
+    (void)state;
+    static const char *const claims[] = {
+        "at_most: 9\n" RATIO,
+        "form: any\nat_most: 9\n" RATIO,
+        "form: mean\nat_most: 9\n" RATIO,
+        "form: order\nof: [{ method: a }, { method: b }]\n",
+        "form: monotone\nalong: k\ngoes: rises\nof: { method: a }\n",
+        "form: crossing\nalong: k\nbetween: [4, 8]\n" RATIO,
+        "form: peak\nalong: k\nbetween: [16, 16]\nextreme: greatest\nof: { method: a }\n",
+        "form: slope\nalong: k\nequals: 1\nof: { method: a }\n",
+        "form: spread\nalong: k\nat_most: 9\nof: { method: a }\n",
+        "at_most: 99\nof: { method: a, metric: times_floor }\n",
+        "at_least: 1\nof: { method: a, metric: fps }\n",
+        "at_least: 1\nof: { method: a, metric: [resolve_ms, frame_ms] }\n",
+        "at_most: 9\nof: { method: b }\nminus: { method: a }\n",
+    };
+    fakes rows = noisy;
+    for (int i = 0; i < 6; i++)
+        rows.rows[i].launches = 1;
+    for (size_t i = 0; i < sizeof claims / sizeof claims[0]; i++) {
+        const judged made = judge_beside(claims[i], &rows, NULL);
+        if (made.verdict.kind != FM_VERDICT_UNCLEAR ||
+            strstr(made.verdict.reason, "launches=3 or more") == NULL)
+            fail_msg("%s: %s: %s", claims[i], verdict_name(made.verdict.kind), made.verdict.reason);
+        assert_true(isnan(made.verdict.measured.low) && isnan(made.verdict.measured.high));
+    }
+}
+
+static void counts_and_bytes_need_one_launch_only(void **state)
+{
+    (void)state;
+    const fakes rows = { { { ROW("a", 4, 1, 10), .launches = 1, .bytes = 100, .missing = 3 } } };
+    static const char *const claims[] = {
+        "equals: 100\nof: { method: a, metric: bytes_allocated }\n",
+        "equals: 3\nof: { method: a, metric: missing }\n"
+    };
+    for (size_t i = 0; i < sizeof claims / sizeof claims[0]; i++)
+        assert_int_equal(judge_beside(claims[i], &rows, NULL).verdict.kind, FM_VERDICT_HOLDS);
+}
+
 static void decided_verdicts_are_not_called_unclear(void **state)
 {
     (void)state;
@@ -73,17 +116,18 @@ static void candidates_that_were_not_chosen_are_not_missing(void **state)
         fail_msg("%s", made.verdict.reason);
 }
 
-/* A partner with few samples that is not the least does not make the interval wider. */
+/* A partner of one launch that is not the least takes nothing from the interval. */
 static void candidates_that_were_not_chosen_do_not_widen(void **state)
 {
     (void)state;
     const fakes rows = { { { ROW("a", 4, 0.25, 10), .device = "hard" },
                            { ROW("b", 4, 0.25, 40), .device = "hard" },
                            { ROW("b", 4, 0.25, 90), .device = "hard", .options = "lock=spin",
-                             .samples = 1 } } };
+                             .launches = 1 } } };
     const judged made = judge_beside(
         "at_most: 1\nof: { method: a }\nover: { method: b, take: least }\n", &rows, NULL);
-    if (strstr(made.verdict.reason, "fewer than 5") != NULL)
+    assert_int_equal(made.verdict.kind, FM_VERDICT_HOLDS);
+    if (strstr(made.verdict.reason, "one launch") != NULL)
         fail_msg("%s", made.verdict.reason);
 }
 
@@ -104,6 +148,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(unclear_verdicts_say_why),
+        cmocka_unit_test(times_of_one_launch_are_unclear),
+        cmocka_unit_test(counts_and_bytes_need_one_launch_only),
         cmocka_unit_test(decided_verdicts_are_not_called_unclear),
         cmocka_unit_test(an_option_goes_before_a_column_of_its_name),
         cmocka_unit_test(candidates_that_were_not_chosen_are_not_missing),

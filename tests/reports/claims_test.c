@@ -246,15 +246,15 @@ static void comparisons_select_ranges(void **state)
            FM_VERDICT_FAILS);
 }
 
-static void few_samples_and_noise_are_unclear(void **state)
+static void few_launches_and_noise_are_unclear(void **state)
 {
     (void)state;
     static const char claim[] = "form: bound\nat_most: 1\nof: { method: a }\nover: { method: b }\n";
     fakes rows = { { { ROW("a", 4, 1, 10) }, { ROW("b", 4, 1, 11) } } };
     expect(claim, &rows, FM_VERDICT_HOLDS);
-    rows.rows[0].samples = rows.rows[1].samples = 2;
+    rows.rows[0].launches = rows.rows[1].launches = 2;
     expect(claim, &rows, FM_VERDICT_UNCLEAR);
-    rows.rows[0].samples = rows.rows[1].samples = 6;
+    rows.rows[0].launches = rows.rows[1].launches = 6;
     rows.rows[0].noise = 0.4;
     expect(claim, &rows, FM_VERDICT_UNCLEAR);
 }
@@ -474,7 +474,7 @@ int main(void)
         cmocka_unit_test(options_select_and_pair),
         cmocka_unit_test(pairs_differ_only_in_what_is_named),
         cmocka_unit_test(comparisons_select_ranges),
-        cmocka_unit_test(few_samples_and_noise_are_unclear),
+        cmocka_unit_test(few_launches_and_noise_are_unclear),
         cmocka_unit_test(images_are_compared),
         cmocka_unit_test(gpu_claims_are_not_testable_in_software),
         cmocka_unit_test(reference_decides_what_is_not_testable_here),

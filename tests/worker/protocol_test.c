@@ -97,6 +97,8 @@ static void answer_fault_names_what_is_wrong(void **state)
     assert_fault("{\"status\": \"ok\", \"is_runs_fault\": true}", "contradict");
     assert_fault("{\"status\": \"ok\", \"metrics\": []}", "'metrics'");
     assert_fault("{\"status\": \"ok\", \"samples\": {}}", "'samples'");
+    assert_fault("{\"status\": \"ok\", \"launch\": []}", "'launch'");
+    assert_fault("{\"status\": \"ok\", \"launch\": {\"load_end\": \"high\"}}", "'launch'");
     assert_fault("{\"status\": \"ok\", \"samples\": [{\"frame\": -1, \"metric\": \"x\", "
                  "\"value\": 1}]}",
                  "a sample");
