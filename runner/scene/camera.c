@@ -1,6 +1,6 @@
 #include "camera.h"
 
-#include "vec3.h"
+#include "base/vec3.h"
 
 /* An orthonormal frame: right, up, and back (from the target towards the eye). */
 typedef struct view {
