@@ -321,7 +321,9 @@ static bool in_scene_hash(const fm_key *key, fm_generator generator)
 uint32_t generator_version(fm_generator generator)
 {
     /* As many as key masks can name. A generator that is not named has version 0. */
-    static const uint32_t versions[32] = { [FM_GENERATOR_LAYERS] = 0 };
+    static const uint32_t versions[32] = {
+        [FM_GENERATOR_MESH] = 1, [FM_GENERATOR_BUNNY_IN_CUBE] = 1
+    };
     return versions[generator];
 }
 
