@@ -28,10 +28,7 @@ static void add_count(fm_text *text, const char **before, uint64_t count, const 
 
 static void add_point(fm_text *text, const double point[3])
 {
-    char words[3][32];
-    for (int axis = 0; axis < 3; axis++)
-        text_from_double(words[axis], point[axis]);
-    text_add(text, "%s %s %s", words[0], words[1], words[2]);
+    text_add(text, "%.12g %.12g %.12g", point[0], point[1], point[2]);
 }
 
 static void add_ignored(fm_text *text, uint32_t ignored)

@@ -186,6 +186,38 @@ void answer_set_modelled(json_t *answer, json_t *scene, json_t *passes, json_t *
         json_pack("{s:o, s:o, s:o}", "scene", scene, "passes", passes, "buffers", buffers));
 }
 
+static json_t *point_json(const double point[3])
+{
+    return json_pack("[f, f, f]", point[0], point[1], point[2]);
+}
+
+static json_t *ignored_json(uint32_t ignored)
+{
+    json_t *names = json_array();
+    for (int i = 0; i < FM_MESH_IGNORED_COUNT; i++)
+        if ((ignored >> i & 1u) != 0)
+            json_array_append_new(names, json_string(mesh_ignored_name((fm_mesh_ignored)i)));
+    return names;
+}
+
+void answer_set_mesh(json_t *answer, const char *file, const fm_mesh_facts *facts)
+{
+    fm_text told = { 0 };
+    mesh_facts_text(&told, facts);
+    json_object_set_new(
+        answer, "mesh",
+        json_pack("{s:o, s:o, s:s, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:o, s:o, s:o, s:f}", "file",
+                  any_text(file), "told", any_text(told.bytes != NULL ? told.bytes : ""), "format",
+                  facts->format, "triangles", (json_int_t)facts->triangles, "vertices",
+                  (json_int_t)facts->vertices, "parts", (json_int_t)facts->parts,
+                  "faces_without_area", (json_int_t)facts->without_area,
+                  "triangles_without_area_as_floats", (json_int_t)facts->lost_area, "lines",
+                  (json_int_t)facts->lines, "points", (json_int_t)facts->points, "ignored",
+                  ignored_json(facts->ignored), "low", point_json(facts->box.low), "high",
+                  point_json(facts->box.high), "spacing", facts->spacing));
+    text_free(&told);
+}
+
 void answer_add_sample_named(json_t *samples, uint32_t frame, const char *metric, double value)
 {
     const fm_metric_info *info = metric_describe(metric);
@@ -287,6 +319,21 @@ json_t *answer_modelled(const json_t *answer)
 json_t *answer_samples(const json_t *answer)
 {
     return json_object_get(answer, "samples");
+}
+
+json_t *answer_mesh(const json_t *answer)
+{
+    return json_object_get(answer, "mesh");
+}
+
+const char *answer_mesh_file(const json_t *mesh)
+{
+    return text_in(mesh, "file");
+}
+
+const char *answer_mesh_told(const json_t *mesh)
+{
+    return text_in(mesh, "told");
 }
 
 fm_answer_sample answer_sample(const json_t *sample)

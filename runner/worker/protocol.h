@@ -22,6 +22,8 @@
  * anew "device_name": "...", "device_driver": "...", "device_api": "...", "has_gpu_clock": false,
  * "is_software": true, "modelled": { "scene": [...], "passes": [...], "buffers": [...] },    names
  *     "image_hash": "16 hex digits",
+ *     "mesh": { "file": "...", "told": "a sentence", "triangles": 12, ... },   what a scene's file
+ *                                           held, of truth jobs and launches with "check"
  *     "metrics": { "n": 128, ... },         one number a case, by its metric's name
  *     "samples": [ { "frame": 0, "metric": "store_ms", "value": 1.25, "unit": "ms" }, ... ] }
  *
@@ -37,6 +39,7 @@
 
 #include "base/error.h"
 #include "device/device.h"
+#include "mesh/facts.h"
 #include "model/descriptor.h"
 #include "model/outcome.h"
 #include "model/settings.h"
@@ -89,6 +92,8 @@ void answer_set_image_hash(json_t *answer, uint64_t hash);
 /* Takes the references. */
 void answer_set_measured(json_t *answer, json_t *metrics, json_t *samples);
 void answer_set_modelled(json_t *answer, json_t *scene, json_t *passes, json_t *buffers);
+/* What the mesh was that the scene is made of, and what of it was left out. */
+void answer_set_mesh(json_t *answer, const char *file, const fm_mesh_facts *facts);
 /* One element of samples. */
 void answer_add_sample_named(json_t *samples, uint32_t frame, const char *metric, double value);
 /* An answer on behalf of a worker that left none; NULL without memory. */
@@ -109,6 +114,11 @@ const char *answer_image_hash(const json_t *answer); /* the same */
 json_t *answer_metrics(const json_t *answer);        /* borrowed; NULL: none */
 json_t *answer_modelled(const json_t *answer);       /* the same */
 json_t *answer_samples(const json_t *answer);        /* the same */
+
+json_t *answer_mesh(const json_t *answer); /* the same */
+/* Of a mesh: the file, and a sentence that tells what was loaded; borrowed. */
+const char *answer_mesh_file(const json_t *mesh);
+const char *answer_mesh_told(const json_t *mesh);
 
 typedef struct fm_answer_sample {
     uint32_t frame;

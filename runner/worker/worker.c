@@ -90,6 +90,9 @@ static fm_status open_scene(launch_job *job)
     fm_status status = settings_finish(&job->settings, &job->error);
     if (status == FM_OK)
         status = scene_create(&job->scene, &job->settings, &job->error);
+    if (status == FM_OK && job->scene->facts.format[0] != '\0' &&
+        (job->request->is_truth_job || job->request->check))
+        answer_set_mesh(job->answer, job->settings.mesh, &job->scene->facts);
     if (status == FM_OK && job->feed == FM_FEED_TRIANGLES)
         status = scene_hold(job->scene, &job->error); /* the host rasterises it, too */
     return not_the_plugins(status);

@@ -21,6 +21,9 @@ static const char worker_script[] =
     "good=$good'{\"frame\":1,\"metric\":\"frame_ms\",\"value\":4.0,\"unit\":\"ms\"}]}'\n"
     "method=$(sed -n 's,.*\"plugin\": \"/fake/\\(.*\\).so\".*,\\1,p' \"$2\")\n"
     "launch=$(sed -n 's,.*\"launch\": \\([0-9]*\\).*,\\1,p' \"$2\")\n"
+    "mesh=$(sed -n 's,.*\"mesh\": \"\\(.*\\)\".*,\\1,p' \"$2\")\n"
+    "[ -z \"$mesh\" ] || good=$(echo \"$good\" |\n"
+    "    sed 's|{|{\"mesh\":{\"file\":\"'\"$mesh\"'\",\"told\":\"a cube\"},|')\n"
     "if grep -q '\"job\": \"truth\"' \"$2\"; then\n"
     "    echo truth >>\"$here/calls\"\n"
     "    if [ -e \"$here/no-truth\" ]; then\n"
@@ -118,6 +121,38 @@ static void run_measures_each_case_in_each_round(void **state)
     char path[128];
     snprintf(path, sizeof path, "%s/out/truth", fake.folder);
     assert_int_not_equal(access(path, F_OK), 0); /* done: no truth is left */
+    fake_close(&fake);
+}
+
+static void use_mesh(fake_plan *fake, const char *file)
+{
+    for (size_t i = 0; i < fake->plan.count; i++) {
+        fake->cases[i].settings.generator = FM_GENERATOR_MESH;
+        fake->cases[i].settings.mesh = text_shared(file);
+    }
+}
+
+/* Not once a case or a launch, and not again when a run goes on. */
+static void run_tells_a_mesh_once(void **state)
+{
+    (void)state;
+    static const char *const ids[] = { "a", "b", NULL };
+    fake_plan fake;
+    char told[96], directory[96];
+    fm_run_result result;
+    open_with_worker(&fake, ids, 2);
+    use_mesh(&fake, "/fake/cube.ply");
+    snprintf(told, sizeof told, "%s/told", fake.folder);
+    snprintf(directory, sizeof directory, "%s/out", fake.folder);
+    FILE *progress = fopen(told, "w");
+    const fm_run_desc desc = {
+        .directory = directory, .timeout_s = 20, .worker = fake.worker, .progress = progress
+    };
+    for (int i = 0; i < 2; i++)
+        assert_int_equal(run_cases(&result, &fake.plan, &fake.list, &desc, NULL), FM_OK);
+    fclose(progress);
+    assert_int_equal(count_in_file(&fake, "told", "/fake/cube.ply: a cube\n"), 1);
+    assert_int_equal(count_in_file(&fake, "out/manifest.json", "\"told\": \"a cube\""), 1);
     fake_close(&fake);
 }
 
@@ -400,6 +435,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(run_measures_each_case_in_each_round),
+        cmocka_unit_test(run_tells_a_mesh_once),
         cmocka_unit_test(run_writes_a_command_that_is_not_utf8),
         cmocka_unit_test(run_interleaves_the_cases),
         cmocka_unit_test(run_records_every_way_a_worker_can_fail),
