@@ -63,6 +63,7 @@ static fm_status ask(fm_launch_outcome *outcome, run_state *run, const char *nam
         .log = log_path,
         .timeout_s = run->desc->timeout_s != 0 ? run->desc->timeout_s : TIMEOUT_DEFAULT_S,
         .memory_bytes = run->desc->memory_bytes,
+        .input = settings_file(request->settings),
         .tick = tick,
         .context = &run->progress,
     };

@@ -156,6 +156,23 @@ static void run_tells_a_mesh_once(void **state)
     fake_close(&fake);
 }
 
+/* Libraries that read meshes crash too: who looks for the reason needs the file. */
+static void run_names_the_mesh_of_a_crash(void **state)
+{
+    (void)state;
+    static const char *const ids[] = { "crash", "hang", NULL };
+    fake_plan fake;
+    fm_run_result result;
+    open_with_worker(&fake, ids, 1);
+    use_mesh(&fake, "/fake/bad.3ds");
+    assert_int_equal(run_in(&result, &fake, 1, NULL), FM_OK);
+    assert_in_file(&fake, "out/summary.csv",
+                   "crash,\"killed by SIGSEGV; its scene reads /fake/bad.3ds; its last words: ");
+    assert_in_file(&fake, "out/summary.csv",
+                   "timeout,no answer within 1 s; its scene reads /fake/bad.3ds,");
+    fake_close(&fake);
+}
+
 static void run_writes_a_command_that_is_not_utf8(void **state)
 {
     (void)state;
@@ -436,6 +453,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(run_measures_each_case_in_each_round),
         cmocka_unit_test(run_tells_a_mesh_once),
+        cmocka_unit_test(run_names_the_mesh_of_a_crash),
         cmocka_unit_test(run_writes_a_command_that_is_not_utf8),
         cmocka_unit_test(run_interleaves_the_cases),
         cmocka_unit_test(run_records_every_way_a_worker_can_fail),
