@@ -8,7 +8,7 @@
 #include "base/text.h"
 #include "model/metrics.h"
 
-static const char truth_job[] = "truth", measure_job[] = "measure";
+static const char truth_job[] = "truth", mesh_job[] = "mesh", measure_job[] = "measure";
 
 static const char *text_in(const json_t *object, const char *field)
 {
@@ -55,14 +55,16 @@ static json_t *options_json(const fm_request *request)
 
 fm_status request_write(const char *path, const fm_request *request, fm_error *err)
 {
-    json_t *object =
-        json_pack("{s:s, s:s, s:s, s:s, s:s, s:b, s:b, s:s, s:o, s:o, s:s, s:i, s:b, s:s}", "job",
-                  request->is_truth_job ? truth_job : measure_job, "plugin", request->plugin,
-                  "floor", request->floor, "common", request->common, "device", request->device,
-                  "validation", (int)request->validation, "no_timers", (int)request->no_timers,
-                  "feed", request->feed, "settings", settings_json(request->settings), "options",
-                  options_json(request), "truth", request->truth, "launch", (int)request->launch,
-                  "check", (int)request->check, "image", request->image);
+    json_t *object = json_pack(
+        "{s:s, s:s, s:s, s:s, s:s, s:b, s:b, s:s, s:o, s:o, s:s, s:i, s:b, s:s}", "job",
+        request->is_truth_job  ? truth_job
+        : request->is_mesh_job ? mesh_job
+                               : measure_job,
+        "plugin", request->plugin, "floor", request->floor, "common", request->common, "device",
+        request->device, "validation", (int)request->validation, "no_timers",
+        (int)request->no_timers, "feed", request->feed, "settings",
+        settings_json(request->settings), "options", options_json(request), "truth", request->truth,
+        "launch", (int)request->launch, "check", (int)request->check, "image", request->image);
     char *text = object != NULL ? json_dumps(object, JSON_INDENT(1)) : NULL;
     const fm_status status =
         text != NULL ? text_write_file(path, text, strlen(text), err)
@@ -116,6 +118,7 @@ fm_status request_read(fm_read_request *read, const char *path, fm_error *err)
         return fm_fail(err, FM_IO, "%s:%d: %s", path, at.line, at.text);
     read->request = (fm_request){
         .is_truth_job = strcmp(text_in(json, "job"), truth_job) == 0,
+        .is_mesh_job = strcmp(text_in(json, "job"), mesh_job) == 0,
         .plugin = text_in(json, "plugin"),
         .floor = text_in(json, "floor"),
         .common = text_in(json, "common"),

@@ -2,7 +2,7 @@
 /* The protocol between the parent of a run and its workers: the only place that spells its fields.
  *
  * The parent executes `fragmark worker REQUEST.json ANSWER.json`. The request says what to do:
- *   { "job": "measure" or "truth",
+ *   { "job": "measure", "truth" or "mesh",
  *     "plugin": "path of the method's .so",
  *     "floor": "path of the floor's .so, or empty",
  *     "common": "folder of the runner's GLSL",
@@ -23,7 +23,8 @@
  * "is_software": true, "modelled": { "scene": [...], "passes": [...], "buffers": [...] },    names
  *     "image_hash": "16 hex digits",
  *     "mesh": { "file": "...", "told": "a sentence", "triangles": 12, ... },   what a scene's file
- *                                           held, of truth jobs and launches with "check"
+ *                                           held,
+ *                                           not of launches without "check"
  *     "metrics": { "n": 128, ... },         one number a case, by its metric's name
  *     "samples": [ { "frame": 0, "metric": "store_ms", "value": 1.25, "unit": "ms" }, ... ] }
  *
@@ -47,6 +48,7 @@
 /* What a worker is asked. All borrowed. */
 typedef struct fm_request {
     bool is_truth_job;
+    bool is_mesh_job; /* only to read the scene, and to say what its mesh holds */
     const char *plugin, *floor, *common; /* paths; floor "": a feed without times */
     const char *device, *feed;           /* as the case names them */
     const fm_settings *settings;
