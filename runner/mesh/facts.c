@@ -42,21 +42,29 @@ static void add_ignored(fm_text *text, uint32_t ignored)
     }
 }
 
-void mesh_facts_text(fm_text *text, const fm_mesh_facts *facts)
+void mesh_facts_rest(fm_text *text, const fm_mesh_facts *facts)
 {
     const char *before = "; left out: ";
-    text_add(text, "%s, %" PRIu64 " triangle%s in %" PRIu64 " part%s, box ", facts->format,
-             facts->triangles, facts->triangles == 1 ? "" : "s", facts->parts,
-             facts->parts == 1 ? "" : "s");
-    add_point(text, facts->box.low);
-    text_add(text, " to ");
-    add_point(text, facts->box.high);
     add_count(text, &before, facts->without_area, "face");
     if (facts->without_area > 0)
         text_add(text, " without area");
     add_count(text, &before, facts->lines, "line");
     add_count(text, &before, facts->points, "point");
     add_ignored(text, facts->ignored);
+}
+
+void mesh_facts_text(fm_text *text, const fm_mesh_facts *facts)
+{
+    text_add(text, "%s, %" PRIu64 " triangle%s in %" PRIu64 " part%s, box ", facts->format,
+             facts->triangles, facts->triangles == 1 ? "" : "s", facts->parts,
+             facts->parts == 1 ? "" : "s");
+    add_point(text, facts->box.low);
+    text_add(text, " to ");
+    add_point(text, facts->box.high);
+    mesh_facts_rest(text, facts);
+    if (facts->warped > 0)
+        text_add(text, "; cut from the first corner, since far from flat: %" PRIu64 " face%s",
+                 facts->warped, facts->warped == 1 ? "" : "s");
     if (facts->lost_area > 0)
         text_add(text, "; a float does not hold the area of %" PRIu64 " of the triangles",
                  facts->lost_area);

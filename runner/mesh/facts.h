@@ -23,6 +23,7 @@ typedef struct fm_mesh_facts {
     uint64_t triangles, vertices;
     uint64_t parts; /* pieces that the file keeps apart: groups of OBJ, solids of STL, meshes */
     uint64_t without_area;  /* faces that were dropped */
+    uint64_t warped;        /* faces so far from flat that another cut would be another surface */
     uint64_t lost_area;     /* triangles that are drawn, but whose area a float does not hold */
     uint64_t lines, points; /* left out */
     uint32_t ignored;       /* bit i: fm_mesh_ignored i */
@@ -33,6 +34,8 @@ typedef struct fm_mesh_facts {
 
 /* "colours of vertices" */
 const char *mesh_ignored_name(fm_mesh_ignored what);
+/* "; left out: 2 lines; ignored: colours of faces", or nothing. */
+void mesh_facts_rest(fm_text *text, const fm_mesh_facts *facts);
 /* One sentence for people, without the file's name: "OBJ, 12 triangles in 1 part, box ...". */
 void mesh_facts_text(fm_text *text, const fm_mesh_facts *facts);
 

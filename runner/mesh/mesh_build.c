@@ -80,11 +80,24 @@ static fm_status cut_face(mesh_work *work, size_t face, size_t first, size_t cou
     const fm_cut cut = polygon_cut(&work->cutter, count);
     if (cut == FM_CUT_NO_AREA)
         work->polygons->facts.without_area++;
+    else if (cut == FM_CUT_WARPED)
+        work->polygons->facts.warped++;
     else if (cut != FM_CUT)
         return fail_cut(work, cut, face, count);
     for (size_t i = 0; i < 3 * work->cutter.triangle_count; i++)
         work->corners[work->index_count++] = (uint32_t)first + work->cutter.triangles[i];
     return FM_OK;
+}
+
+/* What the file holds instead may be why. */
+static fm_status fail_empty(const mesh_work *work)
+{
+    fm_text rest = { 0 };
+    mesh_facts_rest(&rest, &work->polygons->facts);
+    fm_fail(work->err, FM_INVALID, "%s: no triangles%s", work->path,
+            rest.bytes != NULL ? rest.bytes : "");
+    text_free(&rest);
+    return FM_INVALID;
 }
 
 static fm_status cut_faces(mesh_work *work)
@@ -93,7 +106,7 @@ static fm_status cut_faces(mesh_work *work)
     fm_status status = FM_OK;
     size_t first = 0;
     if (polygons->face_count == 0)
-        return fm_fail(work->err, FM_INVALID, "%s: no triangles", work->path);
+        return fail_empty(work);
     work->corners =
         calloc(polygons->corner_count - 2 * polygons->face_count, 3 * sizeof *work->corners);
     if (work->corners == NULL)

@@ -59,10 +59,11 @@ static fm_status read_normal(obj_state *state)
 static fm_status take_reference(uint32_t *index, obj_state *state, int which, int64_t number)
 {
     const uint64_t count = state->counts[which];
-    if (number == 0 || number > UINT32_MAX || (number < 0 && (uint64_t)-number > count))
+    const uint64_t back = number < 0 ? 0 - (uint64_t)number : 0;
+    if (number == 0 || number > UINT32_MAX || back > count)
         return scan_fail(&state->scan, state->err, "a face: %s %" PRId64 " of %" PRIu64,
                          reference_names[which], number, count);
-    const uint64_t from_one = number > 0 ? (uint64_t)number : count - (uint64_t)-number + 1;
+    const uint64_t from_one = number > 0 ? (uint64_t)number : count - back + 1;
     if (from_one > state->furthest[which]) {
         state->furthest[which] = from_one;
         state->furthest_line[which] = state->scan.line;

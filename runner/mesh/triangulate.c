@@ -5,6 +5,8 @@
 
 /* Of products of two lengths that were rounded a few times. */
 static const double rounding = 4 * DBL_EPSILON;
+/* How far corners of a flat polygon may lie off its plane, of its size: what files round. */
+static const double planar_max = 1e-3;
 
 bool triangulator_reserve(fm_triangulator *t, size_t count)
 {
@@ -228,11 +230,17 @@ static fm_cut cut_ears(fm_triangulator *t, uint32_t count)
     return FM_CUT;
 }
 
+static void cut_fan(fm_triangulator *t, uint32_t count)
+{
+    t->triangle_count = 0;
+    for (uint32_t i = 1; i + 1 < count; i++)
+        emit(t, 0, i, i + 1);
+}
+
 static fm_cut cut_flat(fm_triangulator *t, uint32_t count)
 {
     if (is_convex(t, count)) {
-        for (uint32_t i = 1; i + 1 < count; i++)
-            emit(t, 0, i, i + 1);
+        cut_fan(t, count);
         return FM_CUT;
     }
     return count > POLYGON_CONCAVE_MAX ? FM_CUT_TOO_LARGE : cut_ears(t, count);
@@ -266,9 +274,34 @@ static bool retraces(const fm_triangulator *t, size_t count)
     return true;
 }
 
-fm_cut polygon_cut(fm_triangulator *t, size_t count)
+/* Whether all corners lie in the plane of the largest triangle at the first one. */
+static bool is_planar(const fm_triangulator *t, size_t count)
+{
+    vec3 normal = { 0 };
+    for (size_t i = 1; i + 1 < count; i++) {
+        const vec3 part = cross(t->corners[i], t->corners[i + 1]);
+        normal = dot(part, part) > dot(normal, normal) ? part : normal;
+    }
+    normal = normalized(normal);
+    for (size_t i = 1; i < count; i++)
+        if (fabs(dot(normal, t->corners[i])) > planar_max)
+            return false;
+    return true;
+}
+
+/* Cuts what is seen along the mean normal. */
+static fm_cut cut_seen(fm_triangulator *t, size_t count)
 {
     double spread;
+    const vec3 normal = area_normal(&spread, t, count);
+    if (!(largest(normal) > rounding * spread))
+        return retraces(t, count) ? FM_CUT_NO_AREA : FM_CUT_CROSSES;
+    flatten(t, count, normal);
+    return cut_flat(t, (uint32_t)count);
+}
+
+fm_cut polygon_cut(fm_triangulator *t, size_t count)
+{
     t->triangle_count = 0;
     if (count == 3) {
         emit(t, 0, 1, 2);
@@ -276,10 +309,10 @@ fm_cut polygon_cut(fm_triangulator *t, size_t count)
     }
     if (!normalise(t, count) || is_one_line(t, count))
         return FM_CUT_NO_AREA;
-    const vec3 normal = area_normal(&spread, t, count);
-    if (!(largest(normal) > rounding * spread))
-        return retraces(t, count) ? FM_CUT_NO_AREA : FM_CUT_CROSSES;
-    flatten(t, count, normal);
-    const fm_cut cut = cut_flat(t, (uint32_t)count);
+    fm_cut cut = cut_seen(t, count);
+    if (cut == FM_CUT_CROSSES && !is_planar(t, count)) {
+        cut_fan(t, (uint32_t)count);
+        cut = FM_CUT_WARPED;
+    }
     return cut == FM_CUT && t->triangle_count == 0 ? FM_CUT_NO_AREA : cut;
 }

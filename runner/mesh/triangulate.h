@@ -11,7 +11,9 @@
 typedef enum fm_cut {
     FM_CUT,
     FM_CUT_NO_AREA,   /* no triangles */
-    FM_CUT_CROSSES,   /* the border crosses itself: what is inside is not said */
+    FM_CUT_CROSSES,   /* the border crosses itself in a plane: what is inside is not said */
+    FM_CUT_WARPED,    /* it crosses itself as seen along the mean normal, but lies in no plane: cut
+                         from its first corner */
     FM_CUT_TOO_LARGE, /* not convex, and above POLYGON_CONCAVE_MAX corners */
     FM_CUT_NO_MEMORY
 } fm_cut;

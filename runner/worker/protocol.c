@@ -209,15 +209,16 @@ void answer_set_mesh(json_t *answer, const char *file, const fm_mesh_facts *fact
     mesh_facts_text(&told, facts);
     json_object_set_new(
         answer, "mesh",
-        json_pack("{s:o, s:o, s:s, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:o, s:o, s:o, s:f}", "file",
-                  any_text(file), "told", any_text(told.bytes != NULL ? told.bytes : ""), "format",
-                  facts->format, "triangles", (json_int_t)facts->triangles, "vertices",
+        json_pack("{s:o, s:o, s:s, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:o, s:o, s:o, s:f}",
+                  "file", any_text(file), "told", any_text(told.bytes != NULL ? told.bytes : ""),
+                  "format", facts->format, "triangles", (json_int_t)facts->triangles, "vertices",
                   (json_int_t)facts->vertices, "parts", (json_int_t)facts->parts,
-                  "faces_without_area", (json_int_t)facts->without_area,
-                  "triangles_without_area_as_floats", (json_int_t)facts->lost_area, "lines",
-                  (json_int_t)facts->lines, "points", (json_int_t)facts->points, "ignored",
-                  ignored_json(facts->ignored), "low", point_json(facts->box.low), "high",
-                  point_json(facts->box.high), "spacing", facts->spacing));
+                  "faces_without_area", (json_int_t)facts->without_area, "faces_far_from_flat",
+                  (json_int_t)facts->warped, "triangles_without_area_as_floats",
+                  (json_int_t)facts->lost_area, "lines", (json_int_t)facts->lines, "points",
+                  (json_int_t)facts->points, "ignored", ignored_json(facts->ignored), "low",
+                  point_json(facts->box.low), "high", point_json(facts->box.high), "spacing",
+                  facts->spacing));
     text_free(&told);
 }
 

@@ -51,6 +51,8 @@ static void obj_is_refused_with_its_line(void **state)
     assert_refused(".obj", CORNERS "f 1 2 0\n", ":4: a face: vertex 0 of 3");
     assert_refused(".obj", CORNERS "f 1 2 -4\n", ":4: a face: vertex -4 of 3");
     assert_refused(".obj", CORNERS "f 1//1 2//1 3//1\n", ":4: a face: normal 1 is out of range");
+    assert_refused(".obj", CORNERS "f 1 2 -9223372036854775808\n",
+                   ":4: a face: vertex -9223372036");
     assert_refused(".obj", CORNERS "f 1 2 x\n", ":4: a face: 'x' names no vertex");
     assert_refused(".obj", CORNERS "f 1/1/1/1 2 3\n", ":4: a face: '1/1/1/1'");
     assert_refused(".obj", "v 0 0\n", ":1: a vertex of 2 numbers, not 3");
@@ -60,7 +62,7 @@ static void obj_is_refused_with_its_line(void **state)
     assert_refused(".obj", "v 0 0 0 2\n", ":1: a vertex of weight 2");
     assert_refused(".obj", "v 0 0 0\nv 1 \\\n 0 0\nv 0 \\\n 1 y\n", ":4: a vertex: 'y'");
     assert_refused(".obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\n" FACE, "vertex 0 is not finite");
-    assert_refused(".obj", CORNERS "l 1 2\n", "no triangles");
+    assert_refused(".obj", CORNERS "l 1 2\n", "no triangles; left out: 1 line");
     assert_refused(".obj", "\xFF\xFEv", "UTF-16");
 }
 

@@ -151,6 +151,21 @@ static void borders_that_cross_are_refused(void **state)
     assert_cut(uneven, COUNT(uneven), FM_CUT_CROSSES);
 }
 
+/* A quad of a rough height field: no plane shows it as one piece, and both cuts are a surface. */
+static void warped_quads_are_cut_from_the_first_corner(void **state)
+{
+    (void)state;
+    const vec3 rough[] = { { 0, 0, 0 }, { 0.01, 0, 1 }, { 0.01, 0.01, 0.2 }, { 0, 0.01, 1 } };
+    fm_triangulator t = { 0 };
+    assert_int_equal(cut(&t, rough, COUNT(rough)), FM_CUT_WARPED);
+    assert_int_equal(t.triangle_count, 2);
+    assert_int_equal(t.triangles[0], 0);
+    assert_int_equal(t.triangles[3], 0);
+    triangulator_free(&t);
+    const vec3 mild[] = { { 0, 0, 0 }, { 1, 0, 0.1 }, { 1, 1, 0 }, { 0, 1, 0.1 } };
+    assert_cut(mild, COUNT(mild), FM_CUT);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -162,6 +177,7 @@ int main(void)
         cmocka_unit_test(size_and_place_do_not_matter),
         cmocka_unit_test(what_has_no_area_has_no_triangles),
         cmocka_unit_test(borders_that_cross_are_refused),
+        cmocka_unit_test(warped_quads_are_cut_from_the_first_corner),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
