@@ -10,26 +10,31 @@
 
 enum { LOOK_TIMEOUT_S = 600 };
 
-/* Files of one worker after the other. */
-typedef struct look_files {
+typedef struct look {
+    FILE *talk;
+    const char *worker;
+    fm_launcher launcher;
+    bool stops; /* a signal asked for it */
+    fm_error *err;
+    /* of one worker after the other */
     char folder[FM_PATH_MAX_BYTES];
     char request[FM_PATH_MAX_BYTES + 16], result[FM_PATH_MAX_BYTES + 16],
         log[FM_PATH_MAX_BYTES + 16];
-} look_files;
+} look;
 
-static fm_status make_files(look_files *files, fm_error *err)
+static fm_status make_files(look *files)
 {
     const char *parent = getenv("TMPDIR") != NULL ? getenv("TMPDIR") : "/tmp";
-    fm_status status = path_join(files->folder, parent, "fragmark-plan-XXXXXX", err);
+    fm_status status = path_join(files->folder, parent, "fragmark-plan-XXXXXX", files->err);
     if (status == FM_OK && mkdtemp(files->folder) == NULL)
-        status = fm_fail(err, FM_IO, "%s: %s", files->folder, strerror(errno));
+        status = fm_fail(files->err, FM_IO, "%s: %s", files->folder, strerror(errno));
     snprintf(files->request, sizeof files->request, "%s/request.json", files->folder);
     snprintf(files->result, sizeof files->result, "%s/result.json", files->folder);
     snprintf(files->log, sizeof files->log, "%s/log", files->folder);
     return status;
 }
 
-static void remove_files(const look_files *files)
+static void remove_files(const look *files)
 {
     unlink(files->request);
     unlink(files->result);
@@ -55,9 +60,7 @@ static void tell(FILE *talk, const char *file, const json_t *answer)
         fprintf(talk, "%s: not loaded: %s\n", file, message);
 }
 
-/* *stops: a signal asked for it. */
-static fm_status look_at(bool *stops, FILE *talk, const fm_case *planned, const look_files *files,
-                         const fm_launcher *launcher, const char *worker, fm_error *err)
+static fm_status look_at(look *state, const fm_case *planned)
 {
     fm_launch_outcome outcome = { 0 };
     const fm_request request = { .is_mesh_job = true,
@@ -69,37 +72,35 @@ static fm_status look_at(bool *stops, FILE *talk, const fm_case *planned, const 
                                  .settings = &planned->settings,
                                  .truth = "",
                                  .image = "" };
-    const fm_launch_desc desc = { .worker = worker,
-                                  .request = files->request,
-                                  .result = files->result,
-                                  .log = files->log,
+    const fm_launch_desc desc = { .worker = state->worker,
+                                  .request = state->request,
+                                  .result = state->result,
+                                  .log = state->log,
                                   .input = planned->settings.mesh,
                                   .timeout_s = LOOK_TIMEOUT_S };
-    fm_status status = request_write(files->request, &request, err);
+    fm_status status = request_write(state->request, &request, state->err);
     if (status == FM_OK)
-        status = launch_worker(&outcome, launcher, &desc, err);
-    *stops = outcome.is_interrupted;
-    if (status == FM_OK && !*stops)
-        tell(talk, planned->settings.mesh, outcome.result);
+        status = launch_worker(&outcome, &state->launcher, &desc, state->err);
+    state->stops = outcome.is_interrupted;
+    if (status == FM_OK && !state->stops)
+        tell(state->talk, planned->settings.mesh, outcome.result);
     json_decref(outcome.result);
     return status;
 }
 
 /* The first case of each file. */
-static fm_status look_at_all(FILE *talk, const fm_plan *plan, const look_files *files,
-                             const fm_launcher *launcher, const char *worker, fm_error *err)
+static fm_status look_at_all(look *state, const fm_plan *plan)
 {
     fm_text_list seen = { 0 };
-    bool stops = false;
     fm_status status = FM_OK;
-    for (size_t i = 0; i < plan->count && status == FM_OK && !stops; i++) {
+    for (size_t i = 0; i < plan->count && status == FM_OK && !state->stops; i++) {
         const fm_case *planned = &plan->cases[i];
         if (!has_mesh(planned) || text_list_has(&seen, planned->settings.mesh))
             continue;
         if (!text_list_add(&seen, planned->settings.mesh))
-            status = fm_fail(err, FM_NO_MEMORY, "no memory for the names of meshes");
+            status = fm_fail(state->err, FM_NO_MEMORY, "no memory for the names of meshes");
         else
-            status = look_at(&stops, talk, planned, files, launcher, worker, err);
+            status = look_at(state, planned);
     }
     text_list_free(&seen);
     return status;
@@ -107,19 +108,18 @@ static fm_status look_at_all(FILE *talk, const fm_plan *plan, const look_files *
 
 fm_status mesh_look(FILE *talk, const fm_plan *plan, const char *worker, fm_error *err)
 {
-    look_files files;
-    fm_launcher launcher;
+    look state = { .talk = talk, .worker = worker, .err = err };
     size_t first = 0;
     while (first < plan->count && !has_mesh(&plan->cases[first]))
         first++;
     if (first == plan->count)
         return FM_OK;
-    fm_status status = make_files(&files, err);
+    fm_status status = make_files(&state);
     if (status != FM_OK)
         return status;
-    launcher_open(&launcher);
-    status = look_at_all(talk, plan, &files, &launcher, worker, err);
-    launcher_close(&launcher);
-    remove_files(&files);
+    launcher_open(&state.launcher);
+    status = look_at_all(&state, plan);
+    launcher_close(&state.launcher);
+    remove_files(&state);
     return status;
 }

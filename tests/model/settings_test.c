@@ -92,6 +92,7 @@ static void settings_set_refuses_and_says_what_is_legal(void **state)
         { "eye", "1 2", "\"x y z\"" },
         { "eye", "1 2 3 4", "\"x y z\"" },
         { "eye", "1 2 inf", "\"x y z\"" },
+        { "eye", "1e309 0 0", "each any number" },
         { "mesh", "a\nb", "control characters" },
     };
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
@@ -112,6 +113,8 @@ static void settings_text_is_taken_back_by_set(void **state)
     fm_settings settings = defaults(), again = { 0 };
     set(&settings, "order", "cell-major");
     set(&settings, "pixel_density", "0.3333333333333333");
+    set(&settings, "eye", "1e308 4649776.25 -1e308");
+    set(&settings, "far_plane", "1e300");
     set(&settings, "eye", "1 -2.5 0.1");
     set(&settings, "seed", "9223372036854775807");
     assert_int_equal(settings_finish(&settings, &err), FM_OK);
