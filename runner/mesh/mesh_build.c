@@ -1,6 +1,6 @@
 #include "mesh_build.h"
 
-#include <float.h>
+#include <assert.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
@@ -223,6 +223,7 @@ static fm_corner key_of(const mesh_work *work, size_t index)
 static fm_status share(mesh_work *work)
 {
     const fm_polygons *polygons = work->polygons;
+    assert(work->index_count > 0); /* cut_faces refuses an empty mesh */
     work->place = calloc(polygons->position_count + 1, sizeof *work->place);
     work->slope = calloc(polygons->normal_count + 1, sizeof *work->slope);
     work->smooth = calloc(polygons->position_count + 1, sizeof *work->smooth);

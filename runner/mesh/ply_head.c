@@ -26,28 +26,28 @@ static const struct {
 };
 
 static const struct {
-    ply_kind kind;
     const char *name;
+    ply_kind kind;
     ply_role role;
 } roles[] = {
-    { PLY_VERTEX, "x", PLY_X },
-    { PLY_VERTEX, "y", PLY_X + 1 },
-    { PLY_VERTEX, "z", PLY_X + 2 },
-    { PLY_VERTEX, "nx", PLY_NORMAL_X },
-    { PLY_VERTEX, "ny", PLY_NORMAL_X + 1 },
-    { PLY_VERTEX, "nz", PLY_NORMAL_X + 2 },
-    { PLY_VERTEX, "red", PLY_COLOUR },
-    { PLY_VERTEX, "r", PLY_COLOUR },
-    { PLY_VERTEX, "diffuse_red", PLY_COLOUR },
-    { PLY_VERTEX, "alpha", PLY_COLOUR },
-    { PLY_FACE, "red", PLY_COLOUR },
-    { PLY_FACE, "r", PLY_COLOUR },
-    { PLY_FACE, "diffuse_red", PLY_COLOUR },
-    { PLY_FACE, "alpha", PLY_COLOUR },
-    { PLY_FACE, "vertex_indices", PLY_INDICES },
-    { PLY_FACE, "vertex_index", PLY_INDICES },
-    { PLY_STRIPS, "vertex_indices", PLY_INDICES },
-    { PLY_STRIPS, "vertex_index", PLY_INDICES },
+    { "x", PLY_VERTEX, PLY_X },
+    { "y", PLY_VERTEX, PLY_X + 1 },
+    { "z", PLY_VERTEX, PLY_X + 2 },
+    { "nx", PLY_VERTEX, PLY_NORMAL_X },
+    { "ny", PLY_VERTEX, PLY_NORMAL_X + 1 },
+    { "nz", PLY_VERTEX, PLY_NORMAL_X + 2 },
+    { "red", PLY_VERTEX, PLY_COLOUR },
+    { "r", PLY_VERTEX, PLY_COLOUR },
+    { "diffuse_red", PLY_VERTEX, PLY_COLOUR },
+    { "alpha", PLY_VERTEX, PLY_COLOUR },
+    { "red", PLY_FACE, PLY_COLOUR },
+    { "r", PLY_FACE, PLY_COLOUR },
+    { "diffuse_red", PLY_FACE, PLY_COLOUR },
+    { "alpha", PLY_FACE, PLY_COLOUR },
+    { "vertex_indices", PLY_FACE, PLY_INDICES },
+    { "vertex_index", PLY_FACE, PLY_INDICES },
+    { "vertex_indices", PLY_STRIPS, PLY_INDICES },
+    { "vertex_index", PLY_STRIPS, PLY_INDICES },
 };
 
 bool ply_has(const ply_element *element, ply_role role)

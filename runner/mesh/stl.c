@@ -32,9 +32,9 @@ static fm_status add_corner(fm_polygons *polygons, const double at[3], fm_error 
 static fm_status read_binary_facet(fm_polygons *polygons, const char *facet, fm_error *err)
 {
     fm_status status = FM_OK;
-    for (int corner = 0; corner < 3 && status == FM_OK; corner++) {
+    for (size_t corner = 0; corner < 3 && status == FM_OK; corner++) {
         double at[3];
-        for (int axis = 0; axis < 3; axis++)
+        for (size_t axis = 0; axis < 3; axis++)
             at[axis] = float_at(facet + 12 + 12 * corner + 4 * axis);
         status = add_corner(polygons, at, err);
     }

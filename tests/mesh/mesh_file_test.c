@@ -118,6 +118,33 @@ static void other_formats_are_treated_alike(void **state)
     assert_true(facts.spacing <= 0.0);
 }
 
+/* Two nodes that share a mesh of one strip, coloured and glass, and of one line. */
+static const char gltf[] =
+    "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,1]}],\"nodes"
+    "\":[{\"mesh\":0,\"translation\":[0,0,0]},{\"mesh\":0,\"translation\":[0,0,2]}],\"mat"
+    "erials\":[{\"name\":\"glass\",\"pbrMetallicRoughness\":{\"baseColorFactor\":[1,1,1,0"
+    ".25]}}],\"meshes\":[{\"primitives\":[{\"mode\":5,\"material\":0,\"attributes\":{\"PO"
+    "SITION\":0,\"COLOR_0\":1}},{\"mode\":1,\"attributes\":{\"POSITION\":0},\"indices\":2"
+    "}]}],\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":\""
+    "VEC3\",\"min\":[0,0,0],\"max\":[1,1,0]},{\"bufferView\":1,\"componentType\":5126,\"c"
+    "ount\":4,\"type\":\"VEC4\"},{\"bufferView\":2,\"componentType\":5123,\"count\":2,\"t"
+    "ype\":\"SCALAR\"}],\"bufferViews\":[{\"buffer\":0,\"byteOffset\":0,\"byteLength\":48"
+    "},{\"buffer\":0,\"byteOffset\":48,\"byteLength\":64},{\"buffer\":0,\"byteOffset\":11"
+    "2,\"byteLength\":4}],\"buffers\":[{\"byteLength\":116,\"uri\":\"data:application/oct"
+    "et-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAACAPwAAgD8AAAAAAAC"
+    "APwAAAAAAAAAAAACAPgAAgD8AAAAAAAAAAAAAgD4AAIA/AAAAAAAAAAAAAIA+AACAPwAAAAAAAAAAAACAPgA"
+    "AAQA=\"}]}";
+
+static void instances_and_strips_of_gltf_are_read(void **state)
+{
+    (void)state;
+    const fm_mesh_facts facts = assert_loads(".gltf", gltf, 4, 2.0);
+    assert_int_equal(facts.parts, 2);
+    assert_int_equal(facts.lines, 2);
+    assert_int_equal(facts.ignored, 1u << FM_MESH_VERTEX_COLOURS | 1u << FM_MESH_MATERIALS);
+    assert_true(facts.box.high[2] >= 2.0);
+}
+
 /* assimp rounds to floats before anybody can move the mesh. */
 static void coarse_floats_are_told_or_refused(void **state)
 {
@@ -188,6 +215,7 @@ int main(void)
         cmocka_unit_test(polygons_of_all_formats_are_cut_alike),
         cmocka_unit_test(facets_are_flat_and_other_meshes_smooth),
         cmocka_unit_test(other_formats_are_treated_alike),
+        cmocka_unit_test(instances_and_strips_of_gltf_are_read),
         cmocka_unit_test(coarse_floats_are_told_or_refused),
         cmocka_unit_test(cut_files_of_other_formats_are_refused),
         cmocka_unit_test(only_regular_files_of_known_endings_are_read),
