@@ -240,6 +240,18 @@ static void scene_hash_changes_with_the_generators_version(void **state)
     assert_string_not_equal(a, next);
 }
 
+/* They never end, or never begin. */
+static void only_regular_files_are_digested(void **state)
+{
+    (void)state;
+    uint64_t digest;
+    fm_error err = { 0 };
+    assert_int_equal(settings_mesh_digest(&digest, "/dev/zero", &err), FM_INVALID);
+    assert_string_equal(err.message, "/dev/zero: not a regular file");
+    assert_int_equal(settings_mesh_digest(&digest, "/", &err), FM_INVALID);
+    assert_int_equal(settings_mesh_digest(&digest, "/nowhere/a.obj", &err), FM_IO);
+}
+
 static void scene_hash_reads_the_mesh_not_its_name(void **state)
 {
     (void)state;
@@ -380,6 +392,7 @@ int main(void)
         cmocka_unit_test(settings_finish_judges_meshes),
         cmocka_unit_test(scene_hash_mixes_only_what_the_generator_reads),
         cmocka_unit_test(scene_hash_changes_with_the_generators_version),
+        cmocka_unit_test(only_regular_files_are_digested),
         cmocka_unit_test(scene_hash_reads_the_mesh_not_its_name),
         cmocka_unit_test(scene_file_read_sets_keys_over_defaults),
         cmocka_unit_test(scene_file_read_refuses_with_line_and_nearest),
