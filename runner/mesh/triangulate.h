@@ -18,7 +18,8 @@ typedef enum fm_cut {
     FM_CUT_NO_MEMORY
 } fm_cut;
 
-enum { POLYGON_CONCAVE_MAX = 20000 };
+/* Ears take more than the square of the corners: a spiral of so many takes seconds. */
+enum { POLYGON_CONCAVE_MAX = 8192 };
 
 /* Starts as {0}; is used again for the next polygon. */
 typedef struct fm_triangulator {

@@ -166,6 +166,20 @@ static void warped_quads_are_cut_from_the_first_corner(void **state)
     assert_cut(mild, COUNT(mild), FM_CUT);
 }
 
+/* Convex ones have no limit. */
+static void only_large_concave_polygons_are_refused(void **state)
+{
+    enum { CORNERS = POLYGON_CONCAVE_MAX + 1 };
+    static vec3 round[CORNERS];
+    (void)state;
+    for (int i = 0; i < CORNERS; i++)
+        round[i] = (vec3){ i, (double)i * i, 0 };
+    assert_cut(round, CORNERS, FM_CUT);
+    round[CORNERS / 2].y += 1e6;
+    assert_cut(round, CORNERS, FM_CUT_TOO_LARGE);
+    assert_cut(round, CORNERS - 1, FM_CUT);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -178,6 +192,7 @@ int main(void)
         cmocka_unit_test(what_has_no_area_has_no_triangles),
         cmocka_unit_test(borders_that_cross_are_refused),
         cmocka_unit_test(warped_quads_are_cut_from_the_first_corner),
+        cmocka_unit_test(only_large_concave_polygons_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
