@@ -6,8 +6,8 @@
 #define FM_BUILDER_H
 
 #include "base/random.h"
+#include "base/vec3.h"
 #include "scene/scene.h"
-#include "scene/vec3.h"
 
 enum { BUILDER_BLOCK = 8192 };
 

@@ -115,6 +115,7 @@ fm_status bunny_in_cube_generate(fm_scene *scene, fm_error *err)
     if (status != FM_OK)
         return status;
     fit_mesh(scene, &box);
+    scene->space = (fm_space){ 0 }; /* the cube's */
     status = add_cube(scene, err);
     if (status != FM_OK)
         return status;

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "cli.h"
+#include "parent/mesh_look.h"
 #include "parent/progress.h"
 
 enum { KEY_JSON = 512 };
@@ -28,7 +29,8 @@ static const struct argp argp = {
     .args_doc = "[SPEC.yml]",
     .doc =
         "Lists the cases that `fragmark run` with the same arguments would measure, and how long "
-        "that may take. Runs nothing."
+        "that may take. Measures nothing, but reads the meshes and says what is in them (-q: does "
+        "not)."
         "\v"
         "Examples:\n"
         "  fragmark plan --method kb,kplus-array -a k=4:16:*2\n"
@@ -151,6 +153,17 @@ static int write_json(const fm_cli *cli, const fm_plan *plan)
                                          "estimated_s", plan_seconds(plan), "cases", cases));
 }
 
+static int write_plan(const fm_arguments *arguments, const fm_plan *plan)
+{
+    const fm_cli *cli = arguments->cli;
+    fm_error err = { 0 };
+    const int code = arguments->json ? write_json(cli, plan) : write_table(cli, plan);
+    fflush(cli->out); /* the cases before what is said of their meshes */
+    if (arguments->quiet || mesh_look(cli->talk, plan, NULL, &err) == FM_OK)
+        return code;
+    return cli_fail(cli, &err);
+}
+
 int cli_plan(const fm_cli *cli, int argc, char **argv)
 {
     int code;
@@ -163,7 +176,7 @@ int cli_plan(const fm_cli *cli, int argc, char **argv)
         FM_OK)
         code = cli_fail(cli, &err);
     else
-        code = arguments.json ? write_json(cli, &plan) : write_table(cli, &plan);
+        code = write_plan(&arguments, &plan);
     plan_free(&plan);
     plugin_list_close(&plugins);
     arguments_free(&arguments);

@@ -1,4 +1,6 @@
+#include <float.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>
@@ -116,6 +118,7 @@ ONE_NAME_EACH(own_cull_names, FM_OWN_CULL_COUNT, fm_own_cull);
 #define FRAMES     BY(1u << FM_GENERATOR_FRAMES)
 #define STREAM     BY(1u << FM_GENERATOR_STREAM)
 #define ANY_FRAMES BY(FM_MAKES_FRAMES)
+#define ANYWHERE   .low = -DBL_MAX, .high = DBL_MAX
 #define QUIET      .scope = FM_SCOPE_CASE, .is_quiet = true
 
 /* clang-format off */
@@ -151,18 +154,18 @@ const fm_key fm_keys[] = {
     { "seed", FM_KEY_UINT64, ANY, AT(seed), .low = 0, .high = (double)FM_KEY_UINT64_MAX,
       .fallback = "1", .help = "of everything random" },
     { "mesh", FM_KEY_TEXT, MESH_FILE, AT(mesh), .fallback = "",
-      .help = "OBJ, PLY or 3DS file, beside the file that names it" },
-    { "eye", FM_KEY_VECTOR, MESH, AT(eye), .low = -1e6, .high = 1e6, .fallback = "0 0 0",
+      .help = "OBJ, PLY, OFF, STL, 3DS or glTF file, beside the file that names it" },
+    { "eye", FM_KEY_VECTOR, MESH, AT(eye), ANYWHERE, .fallback = "0 0 0",
       .help = "camera; eye = target: fitted to the mesh" },
-    { "target", FM_KEY_VECTOR, MESH, AT(target), .low = -1e6, .high = 1e6, .fallback = "0 0 0",
+    { "target", FM_KEY_VECTOR, MESH, AT(target), ANYWHERE, .fallback = "0 0 0",
       .help = "what the camera looks at" },
-    { "up", FM_KEY_VECTOR, MESH, AT(up), .low = -1e6, .high = 1e6, .fallback = "0 1 0",
+    { "up", FM_KEY_VECTOR, MESH, AT(up), ANYWHERE, .fallback = "0 1 0",
       .help = "camera" },
     { "fov_deg", FM_KEY_REAL, MESH, AT(fov_deg), .low = 1, .high = 170, .fallback = "45",
       .unit = "deg", .help = "vertical field of view" },
-    { "near_plane", FM_KEY_REAL, MESH, AT(near_plane), .low = 0, .high = 1e9, .fallback = "0",
+    { "near_plane", FM_KEY_REAL, MESH, AT(near_plane), .low = 0, .high = DBL_MAX, .fallback = "0",
       .help = "both 0: 0.4 and 1.7 of the distance" },
-    { "far_plane", FM_KEY_REAL, MESH, AT(far_plane), .low = 0, .high = 1e9, .fallback = "0",
+    { "far_plane", FM_KEY_REAL, MESH, AT(far_plane), .low = 0, .high = DBL_MAX, .fallback = "0",
       .help = "clip plane" },
     { "zoom", FM_KEY_REAL, MESH, AT(zoom), .low = 0.001, .high = 1000, .fallback = "1",
       .help = "of the fitted camera" },
@@ -278,11 +281,20 @@ static void enum_domain(char text[FM_TEXT_MAX], const fm_key *key)
                                        i > 0 ? "|" : "", key->values[i]);
 }
 
+/* One end of a range; the ends of doubles are no end. */
+static void range_end(char text[32], double end)
+{
+    if (fabs(end) < DBL_MAX)
+        text_from_double(text, end);
+    else
+        text[0] = '\0';
+}
+
 void key_domain(char text[FM_TEXT_MAX], const fm_key *key)
 {
     char low[32], high[32];
-    text_from_double(low, key->low);
-    text_from_double(high, key->high);
+    range_end(low, key->low);
+    range_end(high, key->high);
     switch (key->type) {
     case FM_KEY_UINT:
     case FM_KEY_REAL:
@@ -292,7 +304,8 @@ void key_domain(char text[FM_TEXT_MAX], const fm_key *key)
         snprintf(text, FM_TEXT_MAX, "%s..%" PRIu64, low, FM_KEY_UINT64_MAX);
         return;
     case FM_KEY_VECTOR:
-        snprintf(text, FM_TEXT_MAX, "\"x y z\", each %s..%s", low, high);
+        snprintf(text, FM_TEXT_MAX, "\"x y z\", each %s%s%s", low,
+                 low[0] != '\0' ? ".." : "any number", high);
         return;
     case FM_KEY_ENUM:
         enum_domain(text, key);

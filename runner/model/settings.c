@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <xxhash.h>
 
 enum { DEFAULT_R = 4, READ_BYTES = 65536 };
@@ -299,6 +300,9 @@ fm_status settings_mesh_digest(uint64_t *digest, const char *path, fm_error *err
     char block[READ_BYTES];
     fm_status status = FM_OK;
     XXH64_state_t *state = NULL;
+    struct stat info;
+    if (stat(path, &info) == 0 && !S_ISREG(info.st_mode)) /* devices and pipes may never end */
+        return fm_fail(err, FM_INVALID, "%s: not a regular file", path);
     FILE *file = fopen(path, "rb");
     if (file == NULL)
         return fm_fail(err, FM_IO, "%s: %s", path, strerror(errno));
@@ -330,7 +334,9 @@ static bool in_scene_hash(const fm_key *key, fm_generator generator)
 uint32_t generator_version(fm_generator generator)
 {
     /* As many as key masks can name. A generator that is not named has version 0. */
-    static const uint32_t versions[32] = { [FM_GENERATOR_LAYERS] = 0 };
+    static const uint32_t versions[32] = {
+        [FM_GENERATOR_MESH] = 1, [FM_GENERATOR_BUNNY_IN_CUBE] = 1
+    };
     return versions[generator];
 }
 

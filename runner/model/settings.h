@@ -265,7 +265,7 @@ void settings_scene_hash_of(char hash[17], const fm_settings *settings, uint64_t
 /* The same under another version of the generator. */
 void settings_scene_hash_with(char hash[17], const fm_settings *settings, uint64_t mesh_digest,
                               uint32_t version);
-/* The digest of a mesh file's content. FM_IO: it cannot be read. */
+/* The digest of a mesh file's content. FM_IO: it cannot be read. FM_INVALID: no regular file. */
 fm_status settings_mesh_digest(uint64_t *digest, const char *path, fm_error *err);
 
 #endif

@@ -218,7 +218,9 @@ static bool died_of_memory(const ending *end, const fm_launch_desc *desc, const 
 
 static json_t *result_of_death(const ending *end, const fm_launch_desc *desc, off_t log_from)
 {
-    char words[LOG_TAIL_BYTES + 1], how[128], message[sizeof words + sizeof how + 64];
+    char words[LOG_TAIL_BYTES + 1], how[128],
+        message[sizeof words + sizeof how + FM_PATH_MAX_BYTES + 64];
+    const char *input = desc->input != NULL ? desc->input : "";
     log_tail(words, desc->log, log_from);
     if (end->is_timed_out)
         snprintf(how, sizeof how, "no answer within %u s", desc->timeout_s);
@@ -228,7 +230,8 @@ static json_t *result_of_death(const ending *end, const fm_launch_desc *desc, of
     } else
         snprintf(how, sizeof how, "exited with status %d and left no result",
                  WEXITSTATUS(end->wait_status));
-    snprintf(message, sizeof message, "%s%s%s%s", how,
+    snprintf(message, sizeof message, "%s%s%s%s%s%s", how,
+             input[0] != '\0' ? "; its scene reads " : "", input,
              words[0] != '\0' ? "; its last words: \"" : "", words, words[0] != '\0' ? "\"" : "");
     if (end->is_timed_out)
         return answer_make(FM_CASE_TIMEOUT, message);

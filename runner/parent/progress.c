@@ -47,6 +47,15 @@ void progress_tick(fm_progress *progress)
         write_state(progress, now);
 }
 
+void progress_tell(fm_progress *progress, const char *subject, const char *sentence)
+{
+    if (progress->out == NULL)
+        return;
+    fprintf(progress->out, "%s%s: %s\n", progress->is_terminal ? "\r\033[K" : "", subject,
+            sentence);
+    progress_tick(progress);
+}
+
 void progress_begin(fm_progress *progress, const char *current)
 {
     snprintf(progress->current, sizeof progress->current, "%s", current);

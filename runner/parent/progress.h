@@ -19,6 +19,8 @@ typedef struct fm_progress {
 
 void progress_begin(fm_progress *progress, const char *current);
 void progress_tick(fm_progress *progress);
+/* A line of its own, which stays: "SUBJECT: SENTENCE". */
+void progress_tell(fm_progress *progress, const char *subject, const char *sentence);
 /* One more launch is done, after so many seconds. */
 void progress_end(fm_progress *progress, double seconds);
 /* One more is there already, from an earlier process: it tells nothing of the time left. */

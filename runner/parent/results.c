@@ -69,6 +69,7 @@ fm_status results_create(fm_results **results, const fm_plan *plan, const fm_plu
     created->plan = plan;
     created->plugins = plugins;
     created->samples_fd = -1;
+    created->meshes = json_object();
     snprintf(created->run_id, sizeof created->run_id, "%s", run_id);
     status = path_join(created->summary_path, directory, "summary.csv", err);
     if (status == FM_OK)
@@ -98,9 +99,19 @@ void results_destroy(fm_results *results)
         free(result->images);
     }
     free(results->cases);
+    json_decref(results->meshes);
     if (results->samples_fd >= 0)
         close(results->samples_fd);
     free(results);
+}
+
+bool results_take_mesh(fm_results *results, const json_t *answer)
+{
+    json_t *mesh = answer_mesh(answer);
+    const char *file = answer_mesh_file(mesh);
+    if (file[0] == '\0' || json_object_get(results->meshes, file) != NULL)
+        return false;
+    return json_object_set(results->meshes, file, mesh) == 0;
 }
 
 static void add_sample_row(fm_text *rows, const fm_results *results, const char *case_id,

@@ -48,6 +48,7 @@ typedef struct fm_results {
     const fm_plan *plan;
     const fm_plugin_list *plugins;
     fm_case_result *cases; /* [plan->count] */
+    json_t *meshes;        /* by file: what was loaded, as answers say it */
     char summary_path[FM_PATH_MAX_BYTES], samples_path[FM_PATH_MAX_BYTES];
     char run_id[17];
     int samples_fd;
@@ -62,6 +63,9 @@ void results_destroy(fm_results *results);
 /* Takes one launch's answer (protocol.h): status, samples, metrics; appends its rows. */
 fm_status results_add(fm_results *results, size_t case_index, uint32_t launch, const json_t *answer,
                       fm_error *err);
+
+/* Keeps what an answer says of a mesh. True: it is the first to say it of this file. */
+bool results_take_mesh(fm_results *results, const json_t *answer);
 
 /* No further launch of this case is wanted. */
 bool results_is_finished(const fm_results *results, size_t case_index);

@@ -48,6 +48,7 @@ static fm_status replay(void *context, fm_journal_event event, const char *case_
         state->begins = 0;
         return FM_OK;
     case FM_JOURNAL_END:
+        results_take_mesh(run->results, result);
         return state->is_done ? fm_fail(err, FM_INVALID, "launch %u ended twice", launch)
                               : results_add(run->results, i, launch, result, err);
     case FM_JOURNAL_EVENT_COUNT:

@@ -31,6 +31,14 @@ static void tick(void *context)
     progress_tick(context);
 }
 
+/* Once a file, whichever worker is the first to read it. */
+static void tell_mesh(run_state *run, const json_t *answer)
+{
+    const json_t *mesh = answer_mesh(answer);
+    if (results_take_mesh(run->results, answer))
+        progress_tell(&run->progress, answer_mesh_file(mesh), answer_mesh_told(mesh));
+}
+
 /* Writes the request, launches, and cleans up after what went well. */
 static fm_status ask(fm_launch_outcome *outcome, run_state *run, const char *name,
                      const fm_request *request, fm_error *err)
@@ -55,6 +63,7 @@ static fm_status ask(fm_launch_outcome *outcome, run_state *run, const char *nam
         .log = log_path,
         .timeout_s = run->desc->timeout_s != 0 ? run->desc->timeout_s : TIMEOUT_DEFAULT_S,
         .memory_bytes = run->desc->memory_bytes,
+        .input = settings_file(request->settings),
         .tick = tick,
         .context = &run->progress,
     };
@@ -62,6 +71,8 @@ static fm_status ask(fm_launch_outcome *outcome, run_state *run, const char *nam
     if (status != FM_OK)
         return status;
     run->stop_signal = outcome->stop_signal;
+    if (!outcome->is_interrupted)
+        tell_mesh(run, outcome->result);
     if (outcome->is_interrupted || answer_status(outcome->result) <= FM_CASE_WRONG_IMAGE) {
         unlink(request_path);
         unlink(result_path);

@@ -1,6 +1,10 @@
 #include "camera.h"
 
-#include "vec3.h"
+#include "base/vec3.h"
+
+/* Lengths in the space, whose box is near 1 for a mesh from a file. Beyond them clip coordinates
+ * near those that rasterise.h drops, and floats that hold no depth. */
+static const double length_min = 0x1p-36, length_max = 0x1p60;
 
 /* An orthonormal frame: right, up, and back (from the target towards the eye). */
 typedef struct view {
@@ -26,12 +30,26 @@ static vec3 centre(const fm_box *box)
                        0.5);
 }
 
+static vec3 point_in(const fm_space *space, const double point[3])
+{
+    double moved[3];
+    space_point(moved, space, point);
+    return vec3_of(moved);
+}
+
+/* The vector's direction, also where its length is beyond a double. Zero stays zero. */
+static vec3 direction(vec3 v)
+{
+    const double size = fmax(fabs(v.x), fmax(fabs(v.y), fabs(v.z)));
+    return size > 0.0 ? normalized((vec3){ v.x / size, v.y / size, v.z / size }) : v;
+}
+
 /* `up` may be zero or along the view: then the axis farthest from the view takes its place. */
 static void frame_along(view *v, vec3 back, vec3 up)
 {
     const double nearly_parallel = 1e-6;
-    v->back = normalized(back);
-    vec3 right = cross(normalized(up), v->back);
+    v->back = direction(back);
+    vec3 right = cross(direction(up), v->back);
     if (dot(right, right) < nearly_parallel * nearly_parallel) {
         const bool is_upright = fabs(v->back.y) > 0.9;
         right = cross(is_upright ? (vec3){ 0, 0, -1 } : (vec3){ 0, 1, 0 }, v->back);
@@ -54,15 +72,23 @@ static void fit_eye(view *v, const lens *l, const fm_box *box)
     v->eye = plus_scaled(middle, v->back, distance);
 }
 
-static void view_set(view *v, lens *l, const fm_settings *s, const fm_box *box)
+/* Half of it, which is within a double. */
+static vec3 back_of(const fm_settings *s)
 {
-    const vec3 back = minus(vec3_of(s->eye), vec3_of(s->target));
-    const bool is_fitted = !(dot(back, back) > 0.0);
+    return minus(plus_scaled((vec3){ 0 }, vec3_of(s->eye), 0.5),
+                 plus_scaled((vec3){ 0 }, vec3_of(s->target), 0.5));
+}
+
+static void view_set(view *v, lens *l, const fm_settings *s, const fm_space *space,
+                     const fm_box *box)
+{
+    const vec3 back = back_of(s);
+    const bool is_fitted = !(fabs(back.x) > 0.0 || fabs(back.y) > 0.0 || fabs(back.z) > 0.0);
     const vec3 three_quarter = { 0.6, 0.45, 1.0 };
     const double degree = 3.14159265358979323846 / 180.0;
     l->scale_y = 1.0 / tan(0.5 * s->fov_deg * degree);
     l->scale_x = l->scale_y * s->height_px / s->width_px;
-    v->eye = vec3_of(s->eye);
+    v->eye = point_in(space, s->eye);
     frame_along(v, is_fitted ? three_quarter : back, vec3_of(s->up));
     if (!is_fitted)
         return;
@@ -71,10 +97,41 @@ static void view_set(view *v, lens *l, const fm_settings *s, const fm_box *box)
     l->scale_y *= s->zoom;
 }
 
-static fm_status planes_set(lens *l, const view *v, const fm_settings *s, const fm_box *box,
-                            fm_error *err)
+static fm_status check_eye(const view *v, const fm_box *box, fm_error *err)
+{
+    double farthest = 0.0;
+    for (unsigned i = 0; i < 8; i++) {
+        const vec3 to = minus(corner(box, i), v->eye);
+        farthest = fmax(farthest, fmax(fabs(to.x), fmax(fabs(to.y), fabs(to.z))));
+    }
+    if (farthest < length_max)
+        return FM_OK;
+    return fm_fail(err, FM_INVALID, "eye: %.3g times the mesh's size away; at most %.3g", farthest,
+                   length_max);
+}
+
+static fm_status check_planes(const lens *l, const fm_settings *s, fm_error *err)
+{
+    if (!(l->far < length_max))
+        return fm_fail(err, FM_INVALID, "far_plane: %.3g times the mesh's size away; at most %.3g",
+                       l->far, length_max);
+    if (!(l->near > length_min))
+        return fm_fail(err, FM_INVALID, "near_plane: %.3g of the mesh's size; at least %.3g",
+                       l->near, length_min);
+    if (!((float)l->near < (float)l->far))
+        return fm_fail(err, FM_INVALID,
+                       "near_plane %g is not nearer than far_plane %g by what a float holds",
+                       s->near_plane, s->far_plane);
+    return FM_OK;
+}
+
+static fm_status planes_set(lens *l, const view *v, const fm_settings *s, const fm_space *space,
+                            const fm_box *box, fm_error *err)
 {
     double least = INFINITY, greatest = -INFINITY;
+    const fm_status status = check_eye(v, box, err);
+    if (status != FM_OK)
+        return status;
     for (unsigned i = 0; i < 8; i++) {
         const double depth = dot(minus(v->eye, corner(box, i)), v->back);
         least = fmin(least, depth);
@@ -82,15 +139,13 @@ static fm_status planes_set(lens *l, const view *v, const fm_settings *s, const 
     }
     if (!(greatest > 0.0))
         return fm_fail(err, FM_INVALID, "eye, target: the mesh lies behind the camera");
-    l->near = s->near_plane > 0.0 ? s->near_plane : fmax(0.4 * least, 1e-3 * greatest);
-    l->far = s->far_plane > 0.0 ? s->far_plane : 1.7 * greatest;
-    if (!(l->near < l->far))
-        return fm_fail(err, FM_INVALID, "near_plane %g is not nearer than far_plane %g", l->near,
-                       l->far);
-    return FM_OK;
+    l->near = s->near_plane > 0.0 ? space_length(space, s->near_plane)
+                                  : fmax(0.4 * least, 1e-3 * greatest);
+    l->far = s->far_plane > 0.0 ? space_length(space, s->far_plane) : 1.7 * greatest;
+    return check_planes(l, s, err);
 }
 
-/* Row r of clip_from_world: along * scale applied to the position relative to the eye, + constant.
+/* Row r of clip_from_space: along * scale applied to the position relative to the eye, + constant.
  */
 static void set_row(double m[16], int r, vec3 along, double scale, vec3 eye, double constant)
 {
@@ -100,19 +155,19 @@ static void set_row(double m[16], int r, vec3 along, double scale, vec3 eye, dou
     m[12 + r] = constant - scale * dot(along, eye);
 }
 
-fm_status camera_matrix(double clip_from_world[16], const fm_settings *settings, const fm_box *box,
-                        fm_error *err)
+fm_status camera_matrix(double clip_from_space[16], const fm_settings *settings,
+                        const fm_space *space, const fm_box *box, fm_error *err)
 {
     view v;
     lens l = { 0 };
-    view_set(&v, &l, settings, box);
-    const fm_status status = planes_set(&l, &v, settings, box, err);
+    view_set(&v, &l, settings, space, box);
+    const fm_status status = planes_set(&l, &v, settings, space, box, err);
     if (status != FM_OK)
         return status;
     const double range = l.far / (l.near - l.far);
-    set_row(clip_from_world, 0, v.right, l.scale_x, v.eye, 0.0);
-    set_row(clip_from_world, 1, v.up, -l.scale_y, v.eye, 0.0);
-    set_row(clip_from_world, 2, v.back, range, v.eye, l.near * range);
-    set_row(clip_from_world, 3, v.back, -1.0, v.eye, 0.0);
+    set_row(clip_from_space, 0, v.right, l.scale_x, v.eye, 0.0);
+    set_row(clip_from_space, 1, v.up, -l.scale_y, v.eye, 0.0);
+    set_row(clip_from_space, 2, v.back, range, v.eye, l.near * range);
+    set_row(clip_from_space, 3, v.back, -1.0, v.eye, 0.0);
     return FM_OK;
 }

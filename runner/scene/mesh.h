@@ -1,13 +1,12 @@
-/* Meshes from files, through libassimp. */
+/* Meshes from files, as scenes draw them. */
 #ifndef FM_MESH_H
 #define FM_MESH_H
 
 #include "scene.h"
 
-/* Reads the file scene->settings.mesh: fills vertices and indices. Vertices have a stone base
- * colour, shaded with settings.alpha (shade.h). box: of the vertices that triangles use, in the
- * file's units. FM_IO, FM_INVALID: a file that is missing, empty, cut off, not finite or badly
- * indexed; FM_INVALID, FM_NO_MEMORY: too large to hold. */
+/* Reads the file scene->settings.mesh: fills vertices, indices, space and facts. Vertices have a
+ * stone base colour, shaded with settings.alpha (shade.h). box: of the vertices, in the space.
+ * Returns what mesh_file_read does, and FM_INVALID without a file's name. */
 fm_status mesh_read(fm_scene *scene, fm_box *box, fm_error *err);
 
 #endif

@@ -43,7 +43,7 @@ fm_status scene_place(fm_scene *scene, const fm_settings *camera, const fm_box *
     const uint32_t count = camera->instances > 0 ? camera->instances : 1;
     double step[3], matrix[16];
     const fm_box all = stretched(step, camera, box, count);
-    const fm_status status = camera_matrix(matrix, camera, &all, err);
+    const fm_status status = camera_matrix(matrix, camera, &scene->space, &all, err);
     if (status != FM_OK)
         return status;
     scene->clip_from_object = calloc(count, 16 * sizeof(float));

@@ -9,11 +9,12 @@
 
 #include "base/error.h"
 #include "camera.h"
+#include "mesh/facts.h"
 #include "model/settings.h"
 
 /* A mesh vertex as the shaders read it. */
 typedef struct fm_vertex {
-    float position[3]; /* object space */
+    float position[3]; /* object space: of a file's mesh, in the scene's space */
     uint32_t colour;   /* RGBA8, premultiplied: shaded on the host, the same on every device */
 } fm_vertex;
 _Static_assert(sizeof(fm_vertex) == 16, "attributes of mesh_vertex.glsl");
@@ -70,6 +71,8 @@ struct fm_scene {
     uint32_t *indices; /* NULL with vertices */
     uint32_t index_count;
     uint32_t parts;          /* of generated meshes: pieces that are one each, such as a column */
+    fm_space space;          /* of a mesh from a file; others: {0} */
+    fm_mesh_facts facts;     /* the same */
     float *clip_from_object; /* [instances][16], column major; y down, z 0..1 */
     uint32_t instances;
 };

@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-#include "vec3.h"
+#include "base/vec3.h"
 
 /* 0xBBGGRR, before light and alpha. */
 #define FM_STONE 0xBEE2FFu

@@ -8,7 +8,7 @@
 #include "base/text.h"
 #include "model/metrics.h"
 
-static const char truth_job[] = "truth", measure_job[] = "measure";
+static const char truth_job[] = "truth", mesh_job[] = "mesh", measure_job[] = "measure";
 
 static const char *text_in(const json_t *object, const char *field)
 {
@@ -55,14 +55,16 @@ static json_t *options_json(const fm_request *request)
 
 fm_status request_write(const char *path, const fm_request *request, fm_error *err)
 {
-    json_t *object =
-        json_pack("{s:s, s:s, s:s, s:s, s:s, s:b, s:b, s:s, s:o, s:o, s:s, s:i, s:b, s:s}", "job",
-                  request->is_truth_job ? truth_job : measure_job, "plugin", request->plugin,
-                  "floor", request->floor, "common", request->common, "device", request->device,
-                  "validation", (int)request->validation, "no_timers", (int)request->no_timers,
-                  "feed", request->feed, "settings", settings_json(request->settings), "options",
-                  options_json(request), "truth", request->truth, "launch", (int)request->launch,
-                  "check", (int)request->check, "image", request->image);
+    json_t *object = json_pack(
+        "{s:s, s:s, s:s, s:s, s:s, s:b, s:b, s:s, s:o, s:o, s:s, s:i, s:b, s:s}", "job",
+        request->is_truth_job  ? truth_job
+        : request->is_mesh_job ? mesh_job
+                               : measure_job,
+        "plugin", request->plugin, "floor", request->floor, "common", request->common, "device",
+        request->device, "validation", (int)request->validation, "no_timers",
+        (int)request->no_timers, "feed", request->feed, "settings",
+        settings_json(request->settings), "options", options_json(request), "truth", request->truth,
+        "launch", (int)request->launch, "check", (int)request->check, "image", request->image);
     char *text = object != NULL ? json_dumps(object, JSON_INDENT(1)) : NULL;
     const fm_status status =
         text != NULL ? text_write_file(path, text, strlen(text), err)
@@ -116,6 +118,7 @@ fm_status request_read(fm_read_request *read, const char *path, fm_error *err)
         return fm_fail(err, FM_IO, "%s:%d: %s", path, at.line, at.text);
     read->request = (fm_request){
         .is_truth_job = strcmp(text_in(json, "job"), truth_job) == 0,
+        .is_mesh_job = strcmp(text_in(json, "job"), mesh_job) == 0,
         .plugin = text_in(json, "plugin"),
         .floor = text_in(json, "floor"),
         .common = text_in(json, "common"),
@@ -198,6 +201,39 @@ void answer_set_modelled(json_t *answer, json_t *scene, json_t *passes, json_t *
     json_object_set_new(
         answer, "modelled",
         json_pack("{s:o, s:o, s:o}", "scene", scene, "passes", passes, "buffers", buffers));
+}
+
+static json_t *point_json(const double point[3])
+{
+    return json_pack("[f, f, f]", point[0], point[1], point[2]);
+}
+
+static json_t *ignored_json(uint32_t ignored)
+{
+    json_t *names = json_array();
+    for (int i = 0; i < FM_MESH_IGNORED_COUNT; i++)
+        if ((ignored >> i & 1u) != 0)
+            json_array_append_new(names, json_string(mesh_ignored_name((fm_mesh_ignored)i)));
+    return names;
+}
+
+void answer_set_mesh(json_t *answer, const char *file, const fm_mesh_facts *facts)
+{
+    fm_text told = { 0 };
+    mesh_facts_text(&told, facts);
+    json_object_set_new(
+        answer, "mesh",
+        json_pack("{s:o, s:o, s:s, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:o, s:o, s:o, s:f}",
+                  "file", any_text(file), "told", any_text(told.bytes != NULL ? told.bytes : ""),
+                  "format", facts->format, "triangles", (json_int_t)facts->triangles, "vertices",
+                  (json_int_t)facts->vertices, "parts", (json_int_t)facts->parts,
+                  "faces_without_area", (json_int_t)facts->without_area, "faces_far_from_flat",
+                  (json_int_t)facts->warped, "triangles_without_area_as_floats",
+                  (json_int_t)facts->lost_area, "lines", (json_int_t)facts->lines, "points",
+                  (json_int_t)facts->points, "ignored", ignored_json(facts->ignored), "low",
+                  point_json(facts->box.low), "high", point_json(facts->box.high), "spacing",
+                  facts->spacing));
+    text_free(&told);
 }
 
 void answer_add_sample_named(json_t *samples, uint32_t frame, const char *metric, double value)
@@ -331,6 +367,21 @@ json_t *answer_launch(const json_t *answer)
 json_t *answer_samples(const json_t *answer)
 {
     return json_object_get(answer, "samples");
+}
+
+json_t *answer_mesh(const json_t *answer)
+{
+    return json_object_get(answer, "mesh");
+}
+
+const char *answer_mesh_file(const json_t *mesh)
+{
+    return text_in(mesh, "file");
+}
+
+const char *answer_mesh_told(const json_t *mesh)
+{
+    return text_in(mesh, "told");
 }
 
 fm_answer_sample answer_sample(const json_t *sample)

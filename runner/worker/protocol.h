@@ -2,7 +2,7 @@
 /* The protocol between the parent of a run and its workers: the only place that spells its fields.
  *
  * The parent executes `fragmark worker REQUEST.json ANSWER.json`. The request says what to do:
- *   { "job": "measure" or "truth",
+ *   { "job": "measure", "truth" or "mesh",
  *     "plugin": "path of the method's .so",
  *     "floor": "path of the floor's .so, or empty",
  *     "common": "folder of the runner's GLSL",
@@ -23,6 +23,8 @@
  * "is_software": true, "modelled": { "scene": [...], "passes": [...], "buffers": [...] },    names
  *     "image_hash": "16 hex digits",        of the last timed frame
  *     "image_hashes": ["16 hex digits"],    of all timed frames, each once
+ *     "mesh": { "file": "...", "told": "a sentence", "triangles": 12, ... },   what a scene's file
+ *                                           held, not of launches without "check"
  *     "metrics": { "n": 128, ... },         one number a case, by its metric's name
  *     "launch": { "timed_s": 0.21, ... },   one number a launch, the same
  *     "samples": [ { "frame": 0, "metric": "store_ms", "value": 1.25, "unit": "ms" }, ... ] }
@@ -39,6 +41,7 @@
 
 #include "base/error.h"
 #include "device/device.h"
+#include "mesh/facts.h"
 #include "model/descriptor.h"
 #include "model/outcome.h"
 #include "model/settings.h"
@@ -46,6 +49,7 @@
 /* What a worker is asked. All borrowed. */
 typedef struct fm_request {
     bool is_truth_job;
+    bool is_mesh_job; /* only to read the scene, and to say what its mesh holds */
     const char *plugin, *floor, *common; /* paths; floor "": a feed without times */
     const char *device, *feed;           /* as the case names them */
     const fm_settings *settings;
@@ -93,6 +97,8 @@ void answer_set_image_hashes(json_t *answer, uint64_t hash, const uint64_t *hash
 void answer_set_measured(json_t *answer, json_t *metrics, json_t *samples);
 void answer_set_launch(json_t *answer, json_t *launch);
 void answer_set_modelled(json_t *answer, json_t *scene, json_t *passes, json_t *buffers);
+/* What the mesh was that the scene is made of, and what of it was left out. */
+void answer_set_mesh(json_t *answer, const char *file, const fm_mesh_facts *facts);
 /* One element of samples. */
 void answer_add_sample_named(json_t *samples, uint32_t frame, const char *metric, double value);
 /* An answer on behalf of a worker that left none; NULL without memory. */
@@ -115,6 +121,11 @@ json_t *answer_metrics(const json_t *answer);        /* the same */
 json_t *answer_modelled(const json_t *answer);       /* the same */
 json_t *answer_samples(const json_t *answer);        /* the same */
 json_t *answer_launch(const json_t *answer);         /* the same */
+
+json_t *answer_mesh(const json_t *answer); /* the same */
+/* Of a mesh: the file, and a sentence that tells what was loaded; borrowed. */
+const char *answer_mesh_file(const json_t *mesh);
+const char *answer_mesh_told(const json_t *mesh);
 
 typedef struct fm_answer_sample {
     uint32_t frame;

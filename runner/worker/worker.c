@@ -92,6 +92,9 @@ static fm_status open_scene(launch_job *job)
     fm_status status = settings_finish(&job->settings, &job->error);
     if (status == FM_OK)
         status = scene_create(&job->scene, &job->settings, &job->error);
+    if (status == FM_OK && job->scene->facts.format[0] != '\0' &&
+        (job->request->is_truth_job || job->request->is_mesh_job || job->request->check))
+        answer_set_mesh(job->answer, job->settings.mesh, &job->scene->facts);
     if (status == FM_OK && job->feed == FM_FEED_TRIANGLES)
         status = scene_hold(job->scene, &job->error); /* the host rasterises it, too */
     return not_the_plugins(status);
@@ -356,7 +359,9 @@ int worker_main(const char *request_path, const char *answer_path, const fm_devi
     job.has_request = status == FM_OK;
     job.settings = job.read.settings;
     if (status == FM_OK)
-        status = job.request->is_truth_job ? truth_job(&job) : measure_job(&job);
+        status = job.request->is_mesh_job    ? open_scene(&job)
+                 : job.request->is_truth_job ? truth_job(&job)
+                                             : measure_job(&job);
     const fm_case_status word = case_status_of(&job, status);
     note_validation(&job, word);
     if (is_runs_fault(&job, status)) {

@@ -54,7 +54,7 @@ static void put_matrices(fm_scene *scene, uint64_t *state)
     double matrix[16];
     do
         draw_camera(&scene->settings, state);
-    while (camera_matrix(matrix, &scene->settings, &box, NULL) != FM_OK);
+    while (camera_matrix(matrix, &scene->settings, &(fm_space){ 0 }, &box, NULL) != FM_OK);
     for (uint32_t i = 0; i < scene->instances; i++) {
         const double shift = 0.3 * i;
         for (int j = 0; j < 16; j++)

@@ -92,6 +92,7 @@ static void settings_set_refuses_and_says_what_is_legal(void **state)
         { "eye", "1 2", "\"x y z\"" },
         { "eye", "1 2 3 4", "\"x y z\"" },
         { "eye", "1 2 inf", "\"x y z\"" },
+        { "eye", "1e309 0 0", "each any number" },
         { "mesh", "a\nb", "control characters" },
     };
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
@@ -112,6 +113,8 @@ static void settings_text_is_taken_back_by_set(void **state)
     fm_settings settings = defaults(), again = { 0 };
     set(&settings, "order", "cell-major");
     set(&settings, "pixel_density", "0.3333333333333333");
+    set(&settings, "eye", "1e308 4649776.25 -1e308");
+    set(&settings, "far_plane", "1e300");
     set(&settings, "eye", "1 -2.5 0.1");
     set(&settings, "seed", "9223372036854775807");
     assert_int_equal(settings_finish(&settings, &err), FM_OK);
@@ -235,6 +238,18 @@ static void scene_hash_changes_with_the_generators_version(void **state)
     settings_scene_hash_with(next, &settings, 0, version + 1);
     assert_string_equal(a, b);
     assert_string_not_equal(a, next);
+}
+
+/* They never end, or never begin. */
+static void only_regular_files_are_digested(void **state)
+{
+    (void)state;
+    uint64_t digest;
+    fm_error err = { 0 };
+    assert_int_equal(settings_mesh_digest(&digest, "/dev/zero", &err), FM_INVALID);
+    assert_string_equal(err.message, "/dev/zero: not a regular file");
+    assert_int_equal(settings_mesh_digest(&digest, "/", &err), FM_INVALID);
+    assert_int_equal(settings_mesh_digest(&digest, "/nowhere/a.obj", &err), FM_IO);
 }
 
 static void scene_hash_reads_the_mesh_not_its_name(void **state)
@@ -402,6 +417,7 @@ int main(void)
         cmocka_unit_test(settings_finish_judges_meshes),
         cmocka_unit_test(scene_hash_mixes_only_what_the_generator_reads),
         cmocka_unit_test(scene_hash_changes_with_the_generators_version),
+        cmocka_unit_test(only_regular_files_are_digested),
         cmocka_unit_test(scene_hash_reads_the_mesh_not_its_name),
         cmocka_unit_test(scene_file_read_sets_keys_over_defaults),
         cmocka_unit_test(scene_file_read_refuses_with_line_and_nearest),

@@ -22,6 +22,9 @@ static const char worker_script[] =
     "good=$good'{\"frame\":1,\"metric\":\"frame_ms\",\"value\":4.0,\"unit\":\"ms\"}]}'\n"
     "method=$(sed -n 's,.*\"plugin\": \"/fake/\\(.*\\).so\".*,\\1,p' \"$2\")\n"
     "launch=$(sed -n 's,.*\"launch\": \\([0-9]*\\).*,\\1,p' \"$2\")\n"
+    "mesh=$(sed -n 's,.*\"mesh\": \"\\(.*\\)\".*,\\1,p' \"$2\")\n"
+    "[ -z \"$mesh\" ] || good=$(echo \"$good\" |\n"
+    "    sed 's|{|{\"mesh\":{\"file\":\"'\"$mesh\"'\",\"told\":\"a cube\"},|')\n"
     "if grep -q '\"job\": \"truth\"' \"$2\"; then\n"
     "    echo truth >>\"$here/calls\"\n"
     "    if [ -e \"$here/no-truth\" ]; then\n"
@@ -119,6 +122,55 @@ static void run_measures_each_case_in_each_round(void **state)
     char path[128];
     snprintf(path, sizeof path, "%s/out/truth", fake.folder);
     assert_int_not_equal(access(path, F_OK), 0); /* done: no truth is left */
+    fake_close(&fake);
+}
+
+static void use_mesh(fake_plan *fake, const char *file)
+{
+    for (size_t i = 0; i < fake->plan.count; i++) {
+        fake->cases[i].settings.generator = FM_GENERATOR_MESH;
+        fake->cases[i].settings.mesh = text_shared(file);
+    }
+}
+
+/* Not once a case or a launch, and not again when a run goes on. */
+static void run_tells_a_mesh_once(void **state)
+{
+    (void)state;
+    static const char *const ids[] = { "a", "b", NULL };
+    fake_plan fake;
+    char told[96], directory[96];
+    fm_run_result result;
+    open_with_worker(&fake, ids, 2);
+    use_mesh(&fake, "/fake/cube.ply");
+    snprintf(told, sizeof told, "%s/told", fake.folder);
+    snprintf(directory, sizeof directory, "%s/out", fake.folder);
+    FILE *progress = fopen(told, "w");
+    const fm_run_desc desc = {
+        .directory = directory, .timeout_s = 20, .worker = fake.worker, .progress = progress
+    };
+    for (int i = 0; i < 2; i++)
+        assert_int_equal(run_cases(&result, &fake.plan, &fake.list, &desc, NULL), FM_OK);
+    fclose(progress);
+    assert_int_equal(count_in_file(&fake, "told", "/fake/cube.ply: a cube\n"), 1);
+    assert_int_equal(count_in_file(&fake, "out/manifest.json", "\"told\": \"a cube\""), 1);
+    fake_close(&fake);
+}
+
+/* Libraries that read meshes crash too: who looks for the reason needs the file. */
+static void run_names_the_mesh_of_a_crash(void **state)
+{
+    (void)state;
+    static const char *const ids[] = { "crash", "hang", NULL };
+    fake_plan fake;
+    fm_run_result result;
+    open_with_worker(&fake, ids, 1);
+    use_mesh(&fake, "/fake/bad.3ds");
+    assert_int_equal(run_in(&result, &fake, 1, NULL), FM_OK);
+    assert_in_file(&fake, "out/summary.csv",
+                   "crash,\"killed by SIGSEGV; its scene reads /fake/bad.3ds; its last words: ");
+    assert_in_file(&fake, "out/summary.csv",
+                   "timeout,no answer within 1 s; its scene reads /fake/bad.3ds,");
     fake_close(&fake);
 }
 
@@ -401,6 +453,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(run_measures_each_case_in_each_round),
+        cmocka_unit_test(run_tells_a_mesh_once),
+        cmocka_unit_test(run_names_the_mesh_of_a_crash),
         cmocka_unit_test(run_writes_a_command_that_is_not_utf8),
         cmocka_unit_test(run_interleaves_the_cases),
         cmocka_unit_test(run_records_every_way_a_worker_can_fail),

@@ -88,12 +88,15 @@ static void assert_refused(const char *suffix, const char *text, const char *par
         fail_msg("'%s' is not in: %s", part, err.message);
 }
 
+/* x, y, z: in the file's units. */
 static void project(double ndc[4], const fm_scene *scene, uint32_t instance, double x, double y,
                     double z)
 {
     const float *m = scene->clip_from_object + (size_t)instance * 16;
+    double p[3];
+    space_point(p, &scene->space, (double[3]){ x, y, z });
     for (int row = 0; row < 4; row++)
-        ndc[row] = (double)m[row] * x + (double)m[4 + row] * y + (double)m[8 + row] * z +
+        ndc[row] = (double)m[row] * p[0] + (double)m[4 + row] * p[1] + (double)m[8 + row] * p[2] +
                    (double)m[12 + row];
     for (int row = 0; row < 3; row++)
         ndc[row] /= ndc[3];
@@ -233,6 +236,97 @@ static void camera_that_looks_away_is_refused(void **state)
     assert_non_null(strstr(err.message, "behind"));
 }
 
+/* A cube of side 2 at (x, 0, 0), seen as given_camera_is_vulkans sees it: the depth of its near
+ * face is the same wherever it lies. In a matrix of floats the eye's offset alone is 0.06 wrong at
+ * 1e6. */
+static void far_meshes_are_seen_as_near_ones(void **state)
+{
+    static const double places[] = { 0, 500000.5, 1e6, -4649776.25, 1e9 };
+    (void)state;
+    for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
+        char text[512] = "", path[64];
+        const double x = places[i];
+        for (int c = 0; c < 8; c++)
+            snprintf(text + strlen(text), 64, "v %.17g %d %d\n", x + 2 * (c & 1), c & 2,
+                     (c & 4) / 2);
+        strcat(text, "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n");
+        write_temporary(path, ".obj", text, strlen(text));
+        fm_settings s = mesh_settings(path);
+        memcpy(s.eye, (double[3]){ x + 1, 1, 6 }, sizeof s.eye);
+        memcpy(s.target, (double[3]){ x + 1, 1, 0 }, sizeof s.target);
+        s.fov_deg = 90.0;
+        s.near_plane = 1.0;
+        s.far_plane = 11.0;
+        fm_scene *scene = create(&s);
+        unlink(path);
+        double ndc[4];
+        project(ndc, scene, 0, x + 2, 2, 2);
+        assert_true(fabs(ndc[0] - 0.75 / 4.0) < rounding);
+        assert_true(fabs(ndc[1] + 1.0 / 4.0) < rounding);
+        assert_true(fabs(ndc[2] - (11.0 / 10.0 - 11.0 / 40.0)) < rounding);
+        scene_destroy(scene);
+    }
+}
+
+/* The same picture at any size: the matrix takes coordinates that were scaled. */
+static void size_changes_nothing_that_is_seen(void **state)
+{
+    static const char *const sizes[] = { "e-300", "e-8", "e0", "e30", "e300" };
+    float first[16] = { 0 };
+    (void)state;
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        char text[256], path[64];
+        const char *e = sizes[i];
+        snprintf(text, sizeof text, "v 0 0 0\nv 1%s 0 0\nv 0 1%s 0\nv 0 0 1%s\nf 1 2 3\nf 1 2 4\n",
+                 e, e, e);
+        write_temporary(path, ".obj", text, strlen(text));
+        const fm_settings s = mesh_settings(path);
+        fm_scene *scene = create(&s);
+        unlink(path);
+        for (int j = 0; j < 8;
+             j++) { /* x and y of the corners, but for the choice of a power of 2 */
+            const float *m = scene->clip_from_object, *p = scene->vertices[j % 4].position;
+            float c[4];
+            for (int row = 0; row < 4; row++)
+                c[row] = m[row] * p[0] + m[4 + row] * p[1] + m[8 + row] * p[2] + m[12 + row];
+            const float seen = c[j / 4] / c[3];
+            if (i == 0)
+                first[j] = seen;
+            assert_true(fabs((double)(seen - first[j])) < rounding);
+        }
+        scene_destroy(scene);
+    }
+}
+
+static void assert_camera_refused(const double eye[3], const double planes[2], const char *reason)
+{
+    char path[64];
+    fm_scene *scene;
+    fm_error err;
+    write_temporary(path, ".obj", cube, sizeof cube - 1);
+    fm_settings s = mesh_settings(path);
+    memcpy(s.eye, eye, sizeof s.eye);
+    s.near_plane = planes[0];
+    s.far_plane = planes[1];
+    const fm_status status = scene_create(&scene, &s, &err);
+    unlink(path);
+    assert_int_equal(status, FM_INVALID);
+    if (strstr(err.message, reason) == NULL)
+        fail_msg("'%s' is not in: %s", reason, err.message);
+}
+
+/* What rasterise.h drops and a device may draw, or neither can hold, is no scene. */
+static void cameras_beyond_floats_are_refused(void **state)
+{
+    (void)state;
+    assert_camera_refused((double[3]){ 0, 0, 1e30 }, (double[2]){ 0, 0 }, "eye: ");
+    assert_camera_refused((double[3]){ 1e308, 0, 1e308 }, (double[2]){ 0, 0 }, "eye: ");
+    assert_camera_refused((double[3]){ 0, 0, 9 }, (double[2]){ 1, 1e300 }, "far_plane: ");
+    assert_camera_refused((double[3]){ 0, 0, 9 }, (double[2]){ 1e-300, 10 }, "near_plane: ");
+    assert_camera_refused((double[3]){ 0, 0, 9 }, (double[2]){ 1, 1 + 1e-12 },
+                          "by what a float holds");
+}
+
 static void missing_file_is_an_io_error(void **state)
 {
     (void)state;
@@ -251,10 +345,10 @@ static void damaged_obj_files_are_refused(void **state)
     assert_refused(".obj", "", "");
     assert_refused(".obj", TRIANGLE, "");
     assert_refused(".obj", TRIANGLE "f 1 2 9\n", "out of range");
-    assert_refused(".obj", TRIANGLE "f 1 2 -9\n", "out of range");
+    assert_refused(".obj", TRIANGLE "f 1 2 -9\n", ":4: a face: vertex -9 of 3");
     assert_refused(".obj", TRIANGLE "f 1 2 3\nf 1 2", "cut off");
     assert_refused(".obj", "v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n", "not finite");
-    assert_refused(".obj", "v 0 0 0\nv 1 0 0\nv 0 1e39 0\nf 1 2 3\n", "not finite");
+    assert_refused(".obj", "v 0 0 0\nv 1 0 0\nv 0 1e309 0\nf 1 2 3\n", "not finite");
     assert_refused(".obj", "v 0 0 0\nv 1 1 1\nv 2 2 2\nf 1 2 3\n", "area");
     assert_refused(".obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n", "area");
     assert_refused(".txt", "not a mesh\n", "");
@@ -334,6 +428,9 @@ int main(void)
         cmocka_unit_test(default_planes_follow_the_box),
         cmocka_unit_test(instances_are_offset_in_box_sizes),
         cmocka_unit_test(camera_that_looks_away_is_refused),
+        cmocka_unit_test(far_meshes_are_seen_as_near_ones),
+        cmocka_unit_test(size_changes_nothing_that_is_seen),
+        cmocka_unit_test(cameras_beyond_floats_are_refused),
         cmocka_unit_test(missing_file_is_an_io_error),
         cmocka_unit_test(damaged_obj_files_are_refused),
         cmocka_unit_test(damaged_ply_files_are_refused),

@@ -1,0 +1,318 @@
+#include "triangulate.h"
+
+#include <float.h>
+#include <stdlib.h>
+
+/* Of products of two lengths that were rounded a few times. */
+static const double rounding = 4 * DBL_EPSILON;
+/* How far corners of a flat polygon may lie off its plane, of its size: what files round. */
+static const double planar_max = 1e-3;
+
+bool triangulator_reserve(fm_triangulator *t, size_t count)
+{
+    if (count <= t->room)
+        return true;
+    count = count < 2 * t->room ? 2 * t->room : count;
+    triangulator_free(t);
+    t->corners = calloc(count, sizeof *t->corners);
+    t->triangles = calloc(count, 3 * sizeof *t->triangles);
+    t->flat = calloc(count, sizeof *t->flat);
+    t->previous = calloc(count, sizeof *t->previous);
+    t->next = calloc(count, sizeof *t->next);
+    t->is_reflex = calloc(count, sizeof *t->is_reflex);
+    t->room = count;
+    return t->corners != NULL && t->triangles != NULL && t->flat != NULL && t->previous != NULL &&
+           t->next != NULL && t->is_reflex != NULL;
+}
+
+void triangulator_free(fm_triangulator *t)
+{
+    free(t->corners);
+    free(t->triangles);
+    free(t->flat);
+    free(t->previous);
+    free(t->next);
+    free(t->is_reflex);
+    *t = (fm_triangulator){ 0 };
+}
+
+static double largest(vec3 v)
+{
+    return fmax(fabs(v.x), fmax(fabs(v.y), fabs(v.z)));
+}
+
+static vec3 scaled(vec3 v, double factor)
+{
+    return (vec3){ v.x * factor, v.y * factor, v.z * factor };
+}
+
+/* Halves keep differences within a double. */
+static vec3 half_edge(vec3 from, vec3 to)
+{
+    return minus(scaled(to, 0.5), scaled(from, 0.5));
+}
+
+bool triangle_has_area(vec3 a, vec3 b, vec3 c)
+{
+    vec3 ab = half_edge(a, b), ac = half_edge(a, c);
+    const double ab_size = largest(ab), ac_size = largest(ac);
+    if (!(ab_size > 0.0 && ac_size > 0.0))
+        return false;
+    ab = (vec3){ ab.x / ab_size, ab.y / ab_size, ab.z / ab_size };
+    ac = (vec3){ ac.x / ac_size, ac.y / ac_size, ac.z / ac_size };
+    return largest(cross(ab, ac)) > rounding;
+}
+
+/* Corners relative to the first one, the farthest at distance 1; false: all are one point. */
+static bool normalise(fm_triangulator *t, size_t count)
+{
+    const vec3 first = t->corners[0];
+    double size = 0.0;
+    for (size_t i = 0; i < count; i++) {
+        t->corners[i] = half_edge(first, t->corners[i]);
+        size = fmax(size, largest(t->corners[i]));
+    }
+    for (size_t i = 0; i < count && size > 0.0; i++) {
+        const vec3 p = t->corners[i];
+        t->corners[i] = (vec3){ p.x / size, p.y / size, p.z / size };
+    }
+    return size > 0.0;
+}
+
+/* Newell's normal: twice the areas of the polygon's shadows. *spread: what was added up. */
+static vec3 area_normal(double *spread, const fm_triangulator *t, size_t count)
+{
+    vec3 sum = { 0 };
+    *spread = 0.0;
+    for (size_t i = 1; i + 1 < count; i++) {
+        const vec3 part = cross(t->corners[i], t->corners[i + 1]);
+        sum = plus(sum, part);
+        *spread += largest(part);
+    }
+    return sum;
+}
+
+/* Seen along the axis nearest to the normal, so that the polygon turns to the left. */
+static void flatten(fm_triangulator *t, size_t count, vec3 normal)
+{
+    const double n[3] = { normal.x, normal.y, normal.z };
+    int axis = fabs(n[0]) > fabs(n[1]) ? 0 : 1;
+    axis = fabs(n[2]) > fabs(n[axis]) ? 2 : axis;
+    const int u = (axis + (n[axis] > 0.0 ? 1 : 2)) % 3, v = (axis + (n[axis] > 0.0 ? 2 : 1)) % 3;
+    for (size_t i = 0; i < count; i++) {
+        const double p[3] = { t->corners[i].x, t->corners[i].y, t->corners[i].z };
+        t->flat[i][0] = p[u];
+        t->flat[i][1] = p[v];
+    }
+}
+
+/* Above 0: c lies to the left of the line from a to b. */
+static double turn(const fm_triangulator *t, uint32_t a, uint32_t b, uint32_t c)
+{
+    const double *p = t->flat[a], *q = t->flat[b], *r = t->flat[c];
+    return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+}
+
+static void emit(fm_triangulator *t, uint32_t a, uint32_t b, uint32_t c)
+{
+    if (!triangle_has_area(t->corners[a], t->corners[b], t->corners[c]))
+        return;
+    uint32_t *triangle = t->triangles + 3 * t->triangle_count++;
+    triangle[0] = a;
+    triangle[1] = b;
+    triangle[2] = c;
+}
+
+/* All corners turn left, and all lie about the first one in order: so the border turns once. */
+static bool is_convex(const fm_triangulator *t, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++)
+        if (turn(t, i, (i + 1) % count, (i + 2) % count) < 0.0)
+            return false;
+    for (uint32_t i = 1; i + 1 < count; i++)
+        if (turn(t, 0, i, i + 1) < 0.0)
+            return false;
+    return true;
+}
+
+static bool is_same_place(const fm_triangulator *t, uint32_t a, uint32_t b)
+{
+    return t->flat[a][0] >= t->flat[b][0] && t->flat[a][0] <= t->flat[b][0] &&
+           t->flat[a][1] >= t->flat[b][1] && t->flat[a][1] <= t->flat[b][1];
+}
+
+/* touches: a corner on the triangle's border is inside, too. */
+static bool is_inside(const fm_triangulator *t, uint32_t p, const uint32_t ear[3], bool touches)
+{
+    for (int i = 0; i < 3; i++) {
+        if (is_same_place(t, p, ear[i]))
+            return false;
+        const double side = turn(t, ear[i], ear[(i + 1) % 3], p);
+        if (touches ? side < 0.0 : side <= 0.0)
+            return false;
+    }
+    return true;
+}
+
+/* The border goes out to the tip and straight back, or stands still: nothing lies within. */
+static bool is_spike(const fm_triangulator *t, const uint32_t ear[3])
+{
+    double dot = 0.0;
+    for (int axis = 0; axis < 2; axis++)
+        dot += (t->flat[ear[1]][axis] - t->flat[ear[0]][axis]) *
+               (t->flat[ear[2]][axis] - t->flat[ear[1]][axis]);
+    return dot <= 0.0;
+}
+
+/* What may be cut off, the surest first. */
+typedef enum ear_kind {
+    EAR_SPIKE, /* without area */
+    EAR_CLEAR, /* no other corner touches it */
+    EAR_ANY,   /* others may lie on its border */
+    EAR_KINDS
+} ear_kind;
+
+/* Only reflex corners can lie within an ear. */
+static bool is_ear(const fm_triangulator *t, uint32_t tip, ear_kind kind)
+{
+    const uint32_t ear[3] = { t->previous[tip], tip, t->next[tip] };
+    const double side = turn(t, ear[0], ear[1], ear[2]);
+    if (side < 0.0)
+        return false;
+    if (side <= 0.0 || kind == EAR_SPIKE)
+        return side <= 0.0 && (kind == EAR_ANY || (kind == EAR_SPIKE && is_spike(t, ear)));
+    for (uint32_t p = t->next[ear[2]]; p != ear[0]; p = t->next[p])
+        if (t->is_reflex[p] && is_inside(t, p, ear, kind == EAR_CLEAR))
+            return false;
+    return true;
+}
+
+static void set_reflex(fm_triangulator *t, uint32_t i)
+{
+    t->is_reflex[i] = turn(t, t->previous[i], i, t->next[i]) <= 0.0;
+}
+
+/* The next ear from `from` on, among the corners that are left. */
+static bool find_ear(uint32_t *ear, const fm_triangulator *t, uint32_t from, uint32_t left)
+{
+    for (int kind = 0; kind < EAR_KINDS; kind++) {
+        *ear = from;
+        for (uint32_t i = 0; i < left; i++, *ear = t->next[*ear])
+            if (is_ear(t, *ear, (ear_kind)kind))
+                return true;
+    }
+    return false;
+}
+
+static fm_cut cut_ears(fm_triangulator *t, uint32_t count)
+{
+    uint32_t at = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        t->previous[i] = (i + count - 1) % count;
+        t->next[i] = (i + 1) % count;
+    }
+    for (uint32_t i = 0; i < count; i++)
+        set_reflex(t, i);
+    for (uint32_t left = count; left > 3; left--) {
+        if (!find_ear(&at, t, at, left))
+            return FM_CUT_CROSSES;
+        const uint32_t before = t->previous[at], after = t->next[at];
+        emit(t, before, at, after);
+        t->next[before] = after;
+        t->previous[after] = before;
+        set_reflex(t, before);
+        set_reflex(t, after);
+        at = after;
+    }
+    if (turn(t, t->previous[at], at, t->next[at]) < 0.0)
+        return FM_CUT_CROSSES;
+    emit(t, t->previous[at], at, t->next[at]);
+    return FM_CUT;
+}
+
+static void cut_fan(fm_triangulator *t, uint32_t count)
+{
+    t->triangle_count = 0;
+    for (uint32_t i = 1; i + 1 < count; i++)
+        emit(t, 0, i, i + 1);
+}
+
+static fm_cut cut_flat(fm_triangulator *t, uint32_t count)
+{
+    if (is_convex(t, count)) {
+        cut_fan(t, count);
+        return FM_CUT;
+    }
+    return count > POLYGON_CONCAVE_MAX ? FM_CUT_TOO_LARGE : cut_ears(t, count);
+}
+
+static bool is_one_line(const fm_triangulator *t, size_t count)
+{
+    for (size_t i = 1; i + 1 < count; i++)
+        if (triangle_has_area(t->corners[0], t->corners[i], t->corners[i + 1]))
+            return false;
+    return true;
+}
+
+static bool is_at(vec3 a, vec3 b)
+{
+    const vec3 d = minus(a, b);
+    return !(largest(d) > 0.0);
+}
+
+/* Each edge is gone both ways: there and back. */
+static bool retraces(const fm_triangulator *t, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        bool is_paired = false;
+        const vec3 from = t->corners[i], to = t->corners[(i + 1) % count];
+        for (size_t j = 0; j < count && !is_paired; j++)
+            is_paired = is_at(from, t->corners[(j + 1) % count]) && is_at(to, t->corners[j]);
+        if (!is_paired)
+            return false;
+    }
+    return true;
+}
+
+/* Whether all corners lie in the plane of the largest triangle at the first one. */
+static bool is_planar(const fm_triangulator *t, size_t count)
+{
+    vec3 normal = { 0 };
+    for (size_t i = 1; i + 1 < count; i++) {
+        const vec3 part = cross(t->corners[i], t->corners[i + 1]);
+        normal = dot(part, part) > dot(normal, normal) ? part : normal;
+    }
+    normal = normalized(normal);
+    for (size_t i = 1; i < count; i++)
+        if (fabs(dot(normal, t->corners[i])) > planar_max)
+            return false;
+    return true;
+}
+
+/* Cuts what is seen along the mean normal. */
+static fm_cut cut_seen(fm_triangulator *t, size_t count)
+{
+    double spread;
+    const vec3 normal = area_normal(&spread, t, count);
+    if (!(largest(normal) > rounding * spread))
+        return retraces(t, count) ? FM_CUT_NO_AREA : FM_CUT_CROSSES;
+    flatten(t, count, normal);
+    return cut_flat(t, (uint32_t)count);
+}
+
+fm_cut polygon_cut(fm_triangulator *t, size_t count)
+{
+    t->triangle_count = 0;
+    if (count == 3) {
+        emit(t, 0, 1, 2);
+        return t->triangle_count > 0 ? FM_CUT : FM_CUT_NO_AREA;
+    }
+    if (!normalise(t, count) || is_one_line(t, count))
+        return FM_CUT_NO_AREA;
+    fm_cut cut = cut_seen(t, count);
+    if (cut == FM_CUT_CROSSES && !is_planar(t, count)) {
+        cut_fan(t, (uint32_t)count);
+        cut = FM_CUT_WARPED;
+    }
+    return cut == FM_CUT && t->triangle_count == 0 ? FM_CUT_NO_AREA : cut;
+}

@@ -1,0 +1,125 @@
+#include "mesh_look.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "launch.h"
+#include "worker/protocol.h"
+
+enum { LOOK_TIMEOUT_S = 600 };
+
+typedef struct look {
+    FILE *talk;
+    const char *worker;
+    fm_launcher launcher;
+    bool stops; /* a signal asked for it */
+    fm_error *err;
+    /* of one worker after the other */
+    char folder[FM_PATH_MAX_BYTES];
+    char request[FM_PATH_MAX_BYTES + 16], result[FM_PATH_MAX_BYTES + 16],
+        log[FM_PATH_MAX_BYTES + 16];
+} look;
+
+static fm_status make_files(look *files)
+{
+    const char *parent = getenv("TMPDIR") != NULL ? getenv("TMPDIR") : "/tmp";
+    fm_status status = path_join(files->folder, parent, "fragmark-plan-XXXXXX", files->err);
+    if (status == FM_OK && mkdtemp(files->folder) == NULL)
+        status = fm_fail(files->err, FM_IO, "%s: %s", files->folder, strerror(errno));
+    snprintf(files->request, sizeof files->request, "%s/request.json", files->folder);
+    snprintf(files->result, sizeof files->result, "%s/result.json", files->folder);
+    snprintf(files->log, sizeof files->log, "%s/log", files->folder);
+    return status;
+}
+
+static void remove_files(const look *files)
+{
+    unlink(files->request);
+    unlink(files->result);
+    unlink(files->log);
+    rmdir(files->folder);
+}
+
+static bool has_mesh(const fm_case *planned)
+{
+    const char *key = settings_file_key(&planned->settings);
+    return planned->skip == NULL && key != NULL && strcmp(key, "mesh") == 0;
+}
+
+static void tell(FILE *talk, const char *file, const json_t *answer)
+{
+    const json_t *mesh = answer_mesh(answer);
+    const char *message = answer_message(answer);
+    if (mesh != NULL)
+        fprintf(talk, "%s: %s\n", file, answer_mesh_told(mesh));
+    else if (strstr(message, file) != NULL)
+        fprintf(talk, "not loaded: %s\n", message);
+    else
+        fprintf(talk, "%s: not loaded: %s\n", file, message);
+}
+
+static fm_status look_at(look *state, const fm_case *planned)
+{
+    fm_launch_outcome outcome = { 0 };
+    const fm_request request = { .is_mesh_job = true,
+                                 .plugin = "",
+                                 .floor = "",
+                                 .common = "",
+                                 .device = "",
+                                 .feed = planned->feed,
+                                 .settings = &planned->settings,
+                                 .truth = "",
+                                 .image = "" };
+    const fm_launch_desc desc = { .worker = state->worker,
+                                  .request = state->request,
+                                  .result = state->result,
+                                  .log = state->log,
+                                  .input = planned->settings.mesh,
+                                  .timeout_s = LOOK_TIMEOUT_S };
+    fm_status status = request_write(state->request, &request, state->err);
+    if (status == FM_OK)
+        status = launch_worker(&outcome, &state->launcher, &desc, state->err);
+    state->stops = outcome.is_interrupted;
+    if (status == FM_OK && !state->stops)
+        tell(state->talk, planned->settings.mesh, outcome.result);
+    json_decref(outcome.result);
+    return status;
+}
+
+/* The first case of each file. */
+static fm_status look_at_all(look *state, const fm_plan *plan)
+{
+    fm_text_list seen = { 0 };
+    fm_status status = FM_OK;
+    for (size_t i = 0; i < plan->count && status == FM_OK && !state->stops; i++) {
+        const fm_case *planned = &plan->cases[i];
+        if (!has_mesh(planned) || text_list_has(&seen, planned->settings.mesh))
+            continue;
+        if (!text_list_add(&seen, planned->settings.mesh))
+            status = fm_fail(state->err, FM_NO_MEMORY, "no memory for the names of meshes");
+        else
+            status = look_at(state, planned);
+    }
+    text_list_free(&seen);
+    return status;
+}
+
+fm_status mesh_look(FILE *talk, const fm_plan *plan, const char *worker, fm_error *err)
+{
+    look state = { .talk = talk, .worker = worker, .err = err };
+    size_t first = 0;
+    while (first < plan->count && !has_mesh(&plan->cases[first]))
+        first++;
+    if (first == plan->count)
+        return FM_OK;
+    fm_status status = make_files(&state);
+    if (status != FM_OK)
+        return status;
+    launcher_open(&state.launcher);
+    status = look_at_all(&state, plan);
+    launcher_close(&state.launcher);
+    remove_files(&state);
+    return status;
+}

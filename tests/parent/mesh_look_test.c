@@ -1,0 +1,63 @@
+/* Looking at a plan's meshes, with a shell script in a worker's place. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <sys/stat.h>
+
+#include <cmocka.h>
+
+#include "fake_plan.h"
+#include "parent/mesh_look.h"
+
+/* What happens is told by the mesh's name; each call leaves a line. */
+static const char worker_script[] =
+    "#!/bin/sh\n"
+    "echo called >>\"$(dirname \"$0\")/calls\"\n"
+    "grep -q '\"job\": \"mesh\"' \"$2\" || exit 3\n"
+    "mesh=$(sed -n 's,.*\"mesh\": \"\\(.*\\)\".*,\\1,p' \"$2\")\n"
+    "case $mesh in\n"
+    "*crash*) kill -ABRT $$ ;;\n"
+    "*bad*) echo '{\"status\":\"not_supported\",\"message\":\"'$mesh':7: no\"}' >\"$3\" ;;\n"
+    "*unseen*) echo '{\"status\":\"not_supported\",\"message\":\"eye: too far\"}' >\"$3\" ;;\n"
+    "*) echo '{\"status\":\"ok\",\"message\":\"\",\"mesh\":{\"told\":\"a cube\"}}' >\"$3\" ;;\n"
+    "esac\n";
+
+static void each_mesh_is_looked_at_once_and_may_crash(void **state)
+{
+    (void)state;
+    static const char *const ids[] = { "a", "b", "c", "d", "e", "f", NULL };
+    static const char *const files[] = { "/m/good.obj",   "/m/crash.3ds", "/m/good.obj",
+                                         "/m/unseen.obj", "/m/bad.ply",   NULL };
+    fake_plan fake;
+    char told[96];
+    fm_error err = { 0 };
+    fake_open(&fake, ids, 1);
+    fake_write(&fake, "worker.sh", worker_script, "w");
+    assert_int_equal(chmod(fake.worker, 0755), 0);
+    for (size_t i = 0; files[i] != NULL; i++) { /* the last case has layers */
+        fake.cases[i].settings.generator = FM_GENERATOR_MESH;
+        fake.cases[i].settings.mesh = text_shared(files[i]);
+    }
+    snprintf(told, sizeof told, "%s/told", fake.folder);
+    FILE *talk = fopen(told, "w");
+    if (mesh_look(talk, &fake.plan, fake.worker, &err) != FM_OK)
+        fail_msg("%s", err.message);
+    fclose(talk);
+    char *text = fake_read(&fake, "told"), *calls = fake_read(&fake, "calls");
+    assert_string_equal(text, "/m/good.obj: a cube\n"
+                              "not loaded: killed by SIGABRT; its scene reads /m/crash.3ds\n"
+                              "/m/unseen.obj: not loaded: eye: too far\n"
+                              "not loaded: /m/bad.ply:7: no\n");
+    assert_string_equal(calls, "called\ncalled\ncalled\ncalled\n");
+    free(text);
+    free(calls);
+    fake_close(&fake);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_mesh_is_looked_at_once_and_may_crash),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
