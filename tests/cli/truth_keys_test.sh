@@ -44,8 +44,11 @@ try() {
     local -a arguments=()
     for setting in "$@"; do
         arguments+=(-a "$setting")
-        case $setting in cull_*) arguments+=(-a culling=occupancy) ;; esac
     done
+    case " $*" in # without culling its keys matter to nobody
+    *' culling='*) ;;
+    *' cull_'*) arguments+=(-a culling=occupancy) ;;
+    esac
     rm -rf "$work/out"
     # shellcheck disable=SC2086 # a scene is several words
     "$program" run -q --no-report --no-images --method $methods --scene layers --device "$device" \
