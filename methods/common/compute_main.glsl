@@ -47,4 +47,5 @@ void main()
     uint pixels = FM_RECT_W * FM_RECT_H;
     fm_feed_layer(fm_rect_pixel(id % pixels), id / pixels);
 #endif
+    fm_tell_cut();
 }

@@ -66,7 +66,8 @@ static void set_params(frame_run *frame, uint32_t iteration, uint32_t units)
     const fm_params params = { .iteration = iteration,
                                .band_first = frame->band.first,
                                .band_pixels = frame->band.pixels,
-                               .units = units };
+                               .units = units,
+                               .two = 2 };
     if (frame->params_are_set && memcmp(&params, &frame->params, sizeof params) == 0)
         return;
     frame->params = params;

@@ -91,6 +91,8 @@ bool pass_is_drawn(const fm_instance *instance, const fm_pass *pass);
 bool instance_is_narrow(const fm_instance *instance);
 /* Not run on this device. */
 bool pass_is_left_out(const fm_instance *instance, const fm_pass *pass);
+/* Its place in the descriptor; FM_MAX_PASSES: the runner's own. */
+uint32_t pass_number(const fm_instance *instance, const fm_pass *pass);
 /* Its shader sees the scene's triangles. */
 bool pass_reads_triangles(const fm_instance *instance, const fm_pass *pass);
 /* Its store() is guarded by the device's interlock, not by a spin lock. */

@@ -55,6 +55,7 @@ static void define_counters(fm_text *text)
     shader_define(text, "FM_COUNTER_CULLED", STAGE_COUNTER_CULLED);
     shader_define(text, "FM_COUNTER_LOCKED", STAGE_COUNTER_LOCKED);
     shader_define(text, "FM_COUNTER_ARRIVED", STAGE_COUNTER_ARRIVED);
+    shader_define(text, "FM_COUNTER_CUT", STAGE_COUNTER_CUT);
 }
 
 static bool release_exchanges(const fm_instance *instance)
@@ -69,6 +70,15 @@ static bool release_exchanges(const fm_instance *instance)
         return true;
     }
     return instance->device->caps.needs_lock_barriers;
+}
+
+/* What a frame that is timed does not need to be told: far from the limit the checked one, which
+ * runs the same loops, is enough. */
+static bool tells_cut(const fm_instance *instance)
+{
+    const uint32_t limit = instance->device->caps.loop_limit;
+    const uint64_t comparisons = (uint64_t)instance->workload.n * (instance->workload.k + 2);
+    return limit > 0 && (instance->desc.is_capture || comparisons > limit / 16);
 }
 
 void pass_define(fm_text *text, const fm_instance *instance, const fm_pass *pass)
@@ -87,6 +97,8 @@ void pass_define(fm_text *text, const fm_instance *instance, const fm_pass *pass
     define_counters(text);
     shader_define(text, "FM_GROUP_LANES", FM_GROUP_LANES);
     shader_define(text, "FM_LOOP_LIMIT", caps->loop_limit);
+    shader_define(text, "FM_TELLS_CUT", tells_cut(instance));
+    shader_define(text, "FM_PASS_BIT", 1u << pass_number(instance, pass));
     shader_define(text, "FM_SUBGROUP_SIZE", caps->subgroup_size);
     shader_define(text, "FM_NARROW", instance_is_narrow(instance));
     shader_define_features(text, instance->method->features_optional, caps->features);

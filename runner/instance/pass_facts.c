@@ -15,6 +15,14 @@ bool pass_is_left_out(const fm_instance *instance, const fm_pass *pass)
     return pass->narrow_only && !instance_is_narrow(instance);
 }
 
+uint32_t pass_number(const fm_instance *instance, const fm_pass *pass)
+{
+    uint32_t i = 0;
+    while (i < FM_MAX_PASSES && pass != &instance->method->passes[i])
+        i++;
+    return i;
+}
+
 uint32_t pass_lanes(const fm_instance *instance, const fm_pass *pass)
 {
     const uint32_t lanes =

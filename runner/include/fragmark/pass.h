@@ -52,8 +52,9 @@
  *   events        fm_culled() and fm_locked() count in the checked build only
  *   loops         fm_iteration is the number of the running iteration of the innermost loop, a uint
  *                 from 0. FM_LOOP before a `for` or `while` keeps it from being unrolled, so that
- *                 pipelines compile in less time. FM_LOOP_LIMIT: so many iterations of all loops
- *                 together end an invocation on this device, without a word; 0: none do
+ *                 pipelines compile in less time. FM_LOOP_LIMIT: after so many iterations of all
+ *                 loops of an invocation this device ends them all; 0: it never does. The runner
+ *                 finds that out behind your function and refuses the case as not_supported
  *   locks         an exclusive store() runs alone at its pixel. A spin lock gives up after
  *                 FM_SPIN_MAX tries and counts the fragment as lost. The lock orders accesses to
  *                 buffers only: keep what fragments share in buffers, not in images
