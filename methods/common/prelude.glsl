@@ -27,6 +27,14 @@ void fm_lost(uvec2 pixel)
     atomicAdd(fm_counters[FM_COUNTER_LOST], 1u);
 }
 
+// Of a pass that resumes: there is more to do, in another run.
+void fm_go_on()
+{
+#if FM_RESUMES
+    atomicAdd(fm_counters[FM_COUNTER_GO_ON], 1u); // a sum
+#endif
+}
+
 // At the end of every shader. Where a device ends all loops of an invocation after FM_LOOP_LIMIT
 // iterations, what they were to do is not done, and no loop goes on after that: one that should turn
 // twice and does not tells it, and the runner refuses the case. Invocations of a vector share the limit.

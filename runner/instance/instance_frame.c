@@ -31,6 +31,7 @@ static fm_status start(frame_run *frame)
     frame->result->scene_passes = 0;
     frame->redo = false;
     frame->params_are_set = false;
+    frame->gone_on = 0;
     instance->parity = 0;
     if (status == FM_OK)
         status = frame_record(frame);

@@ -55,6 +55,7 @@ static void define_counters(fm_text *text)
     shader_define(text, "FM_COUNTER_CULLED", STAGE_COUNTER_CULLED);
     shader_define(text, "FM_COUNTER_LOCKED", STAGE_COUNTER_LOCKED);
     shader_define(text, "FM_COUNTER_ARRIVED", STAGE_COUNTER_ARRIVED);
+    shader_define(text, "FM_COUNTER_GO_ON", STAGE_COUNTER_GO_ON);
     shader_define(text, "FM_COUNTER_CUT", STAGE_COUNTER_CUT);
 }
 
@@ -97,6 +98,9 @@ void pass_define(fm_text *text, const fm_instance *instance, const fm_pass *pass
     define_counters(text);
     shader_define(text, "FM_GROUP_LANES", FM_GROUP_LANES);
     shader_define(text, "FM_LOOP_LIMIT", caps->loop_limit);
+    shader_define(text, "FM_RUN_ITERATIONS", pass_run_iterations(instance));
+    shader_define(text, "FM_RESUMES", pass_resumes(instance, pass));
+    shader_define(text, "FM_FEED_STEP", pass_feed_step(instance, pass));
     shader_define(text, "FM_TELLS_CUT", tells_cut(instance));
     shader_define(text, "FM_PASS_BIT", 1u << pass_number(instance, pass));
     shader_define(text, "FM_SUBGROUP_SIZE", caps->subgroup_size);

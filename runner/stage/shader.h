@@ -45,7 +45,8 @@ typedef struct fm_params {
     uint32_t band_first, band_pixels; /* the pixels whose fragments a checked frame writes down */
     uint32_t units;                   /* FM_PASS_TOTAL: what its total counts; else 0 */
     uint32_t two;                     /* always 2, which no compiler knows */
-    uint32_t unused[3];
+    uint32_t run;                     /* of a pass that resumes, from 0 */
+    uint32_t unused[2];
 } fm_params;
 _Static_assert(sizeof(fm_params) == 32, "std140 block fm_params");
 

@@ -22,7 +22,7 @@ enum {
     STAGE_LIST_OFFSETS,   /* uint: where each pixel's begin (compute-pixel) */
     STAGE_OUTPUT,         /* vec4: the image, with 1 - A for A */
     STAGE_OUTPUT_BACK,    /* vec4: what was emitted from the back */
-    STAGE_COUNTERS,       /* uint: lost, culled, locks taken, arrived, cut */
+    STAGE_COUNTERS,       /* uint: lost, culled, locks taken, ... */
     STAGE_CAPTURE,        /* uvec2 (depth bits, colour): emitted fragments of a band of pixels */
     STAGE_CAPTURE_COUNTS, /* uvec2: how many, from the front and from the back */
     STAGE_SLOT_COUNT,
@@ -33,7 +33,8 @@ enum {
     STAGE_COUNTER_CULLED,
     STAGE_COUNTER_LOCKED,
     STAGE_COUNTER_ARRIVED,
-    STAGE_COUNTER_CUT, /* bits: passes in which the device ended loops */
+    STAGE_COUNTER_GO_ON, /* invocations that want their pass to run again; added up */
+    STAGE_COUNTER_CUT,   /* bits: passes in which the device ended loops */
     STAGE_COUNTER_COUNT
 };
 
