@@ -255,7 +255,8 @@ typedef struct fm_loop {
     uint32_t count_per_k;     /* so many for each k, plus */
     uint32_t count_per_n;     /* so many for each n, the most fragments of any pixel, plus */
     const char *until_zero;   /* a total; the first iteration always runs */
-    uint32_t max;             /* never more iterations than this; 0 is 65536 */
+    uint32_t max;             /* never more iterations than this; 0 is 65536, after which a total
+                                 that is not zero makes the case not_supported */
     const char *count_option; /* the whole number that this option is */
 } fm_loop;
 
