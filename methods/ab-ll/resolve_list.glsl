@@ -3,7 +3,7 @@
 // loops. A list is its head's alone.
 #include "ab-ll/node.glsl"
 #include "common/sort_limit.glsl"
-#if FM_RESUMES
+#if FM_RESUMES && (defined(LISTS) || N > FM_LOOP_LIMIT / 20) // before, one merge sort is within the limit
 #include "ab-ll/sort_links_in_runs.glsl"
 #elif SORTS_IN_PLACE
 #include "ab-ll/sort_links.glsl"

@@ -54,7 +54,7 @@ bool pass_resumes(const fm_instance *instance, const fm_pass *pass)
     case FM_RESUMES_BY_K:
         return is_deep_k;
     case FM_RESUMES_BY_N_K:
-        return is_deep_k || n * (k + 2) > limit / 2;
+        return is_deep_k || n * (k + 2) > limit / 4 * 3;
     case FM_RESUMES_NEVER:
     case FM_RESUMES_COUNT:
         break;

@@ -197,7 +197,7 @@ typedef enum fm_resumes {
     FM_RESUMES_NEVER,  /* beyond the limit the case is not_supported */
     FM_RESUMES_BY_N,   /* it sorts n fragments: n above FM_LOOP_LIMIT / 32 */
     FM_RESUMES_BY_K,   /* it sorts k: k above FM_LOOP_LIMIT / 64 */
-    FM_RESUMES_BY_N_K, /* it compares each of n with k: n (k + 2) above FM_LOOP_LIMIT / 2, or the
+    FM_RESUMES_BY_N_K, /* it compares each of n with k: n (k + 2) above 3/4 of FM_LOOP_LIMIT, or the
                           bound of k */
     FM_RESUMES_COUNT   /* how many there are; none */
 } fm_resumes;
