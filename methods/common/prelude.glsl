@@ -35,6 +35,15 @@ void fm_go_on()
 #endif
 }
 
+// The device's limit of loop iterations is reached, or would be: what this pass left out is not the method's
+// fault, and the runner refuses the case.
+void fm_cut()
+{
+#if FM_LOOP_LIMIT
+    atomicOr(fm_counters[FM_COUNTER_CUT], uint(FM_PASS_BIT)); // bits only come
+#endif
+}
+
 // At the end of every shader. Where a device ends all loops of an invocation after FM_LOOP_LIMIT
 // iterations, what they were to do is not done, and no loop goes on after that: one that should turn
 // twice and does not tells it, and the runner refuses the case. Invocations of a vector share the limit.
@@ -46,7 +55,7 @@ void fm_tell_cut()
         ++turns;
     } while (turns < fm_two);
     if (turns < fm_two)
-        atomicOr(fm_counters[FM_COUNTER_CUT], uint(FM_PASS_BIT));
+        fm_cut();
 #endif
 }
 

@@ -134,6 +134,20 @@ static void pixels_of_any_depth_are_exact(void **state)
     kit_close(&kit);
 }
 
+/* Whoever counts loops and stops before the limit loses nothing that the method could have kept. */
+static void a_shader_that_stops_in_time_is_not_wrong(void **state)
+{
+    scene_kit kit;
+    kit_scene scene;
+    kit_open(&kit, device_of(state));
+    kit_scene_open(&scene, &kit,
+                   "width_px=8 height_px=6 pixel_density=0.5 tessellation=1 alpha=0.01 n=65536 "
+                   "fragment_probability=0.06");
+    expect_exact(&scene, &(kit_way){ "tile-k", FM_FEED_TRIANGLES, "k=40" });
+    kit_scene_close(&scene);
+    kit_close(&kit);
+}
+
 /* What most meshes have: a deep pixel among shallow and empty ones, which share its loops. */
 static void a_deep_pixel_among_shallow_ones_is_exact(void **state)
 {
@@ -159,6 +173,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         ON_VULKAN_AND_OSMESA(one_deep_pixel_is_exact),
         ON_VULKAN_AND_OSMESA(pixels_of_any_depth_are_exact),
+        ON_VULKAN_AND_OSMESA(a_shader_that_stops_in_time_is_not_wrong),
         ON_VULKAN_AND_OSMESA(a_deep_pixel_among_shallow_ones_is_exact),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -55,7 +55,8 @@
  *                 pipelines compile in less time. FM_LOOP_LIMIT: after so many iterations of all
  *                 loops of an invocation this device ends them all; 0: it never does. The runner
  *                 finds that out behind your function and refuses the case as not_supported; a
- *                 pass may do its work in several runs instead (fm_resumes)
+ *                 pass may do its work in several runs instead (fm_resumes). A shader that
+ *                 counts its loops, and stops before, says so by fm_cut()
  *   locks         an exclusive store() runs alone at its pixel. A spin lock gives up after
  *                 FM_SPIN_MAX tries and counts the fragment as lost. The lock orders accesses to
  *                 buffers only: keep what fragments share in buffers, not in images
