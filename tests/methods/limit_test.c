@@ -13,11 +13,10 @@ static const uint32_t feeds[FEEDS] = { FM_FEED_RASTER, FM_FEED_COMPUTE_ADJACENT,
                                        FM_FEED_TRIANGLES };
 
 /* Peeling takes a pass over all layers for each layer: the time is the square of n. */
-static bool is_judged(const fm_method_desc *method, uint32_t n)
+static bool is_judged(const fm_method_desc *method, const kit_scene *scene)
 {
-    const uint32_t free = FM_TRAIT_SORTED_INPUT | FM_TRAIT_RACY | FM_TRAIT_APPROXIMATE;
-    return (method->traits & (FM_TRAIT_EXACT | FM_TRAIT_LOSES_TIES)) != 0 &&
-           (method->traits & free) == 0 && (method->family != FM_FAMILY_PEELING || n < 1000);
+    return kit_is_right(method, kit_has_ties(scene->truth)) &&
+           (method->family != FM_FAMILY_PEELING || scene->scene->n < 1000);
 }
 
 /* A lock may be given up where others hold it: race_test and the column fragments_lost tell of it.
@@ -77,7 +76,7 @@ static void expect_all_exact(kit_scene *scene, const char *texts, size_t turn)
     for (size_t at = 0; at < kit->plugins.count; at++) {
         const fm_method_desc *method = kit_method(kit, at);
         const uint32_t feed = feed_in_turn(method, at + turn);
-        if (is_judged(method, scene->scene->n) && feed != 0 &&
+        if (is_judged(method, scene) && feed != 0 &&
             (kit_wants_all() || at % METHODS_APART == turn % METHODS_APART))
             expect_exact(scene, &(kit_way){ method->id, feed, texts });
     }
