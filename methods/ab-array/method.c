@@ -23,6 +23,7 @@ const fm_method_desc fm_method = {
           .writes = { "counters" } },
         { .name = "store", .shader = "store.glsl", .writes = { "counters", "fragments" } },
         { .name = "resolve", .kind = FM_PASS_PIXELS, .shader = "resolve.glsl", .emits = true,
+          .resumes = FM_RESUMES_BY_N,
           .reads = { "counters" }, .writes = { "fragments" } },
     },
 };

@@ -1,13 +1,6 @@
 #include "common/array.glsl"
 
-uvec2 fragment_at(uvec2 pixel, uint i)
-{
-    return fragments[array_slot(pixel, i, N)];
-}
-void put_fragment(uvec2 pixel, uint i, uvec2 fragment)
-{
-    fragments[array_slot(pixel, i, N)] = fragment;
-}
+#include "ab-array/places.glsl"
 #include "common/resolve_all.glsl"
 
 void resolve(uvec2 pixel)

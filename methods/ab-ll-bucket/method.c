@@ -31,6 +31,7 @@ const fm_method_desc fm_method = {
         { .name = "store", .shader = "store.glsl", .reads = { "bounds" },
           .writes = { "heads", "allocated", "nodes" } },
         { .name = "resolve", .kind = FM_PASS_PIXELS, .shader = "resolve.glsl", .emits = true,
+          .resumes = FM_RESUMES_BY_N,
           .reads = { "bounds" }, .writes = { "heads", "nodes" } },
     },
 };

@@ -1,5 +1,6 @@
-#include "ab-ll/resolve_list.glsl"
 #include "ab-ll-bucket/bucket.glsl"
+#define LISTS BUCKETS
+#include "ab-ll/resolve_list.glsl"
 
 // Bucket by bucket: what lies in one is nearer than all in the next.
 void resolve(uvec2 pixel)

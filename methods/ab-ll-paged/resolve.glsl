@@ -4,7 +4,11 @@
 // Where a pixel's pages are, for sorting in place: all of them, or every STRIDE-th if they are too many.
 #if SORTS_IN_PLACE
 const uint PAGES = (N + PAGE - 1u) / PAGE;
+#if FM_RESUMES // no register is short, and each step of a stride would be counted
+const uint TABLE = min(PAGES, 16384u);
+#else
 const uint TABLE = min(PAGES, 2u * SORT_PRIVATE_MAX); // the memory of SORT_PRIVATE_MAX records
+#endif
 const uint STRIDE = (PAGES + TABLE - 1u) / TABLE;
 uint table[TABLE];
 uint unused; // places of the last page, which is the first of the table
@@ -42,6 +46,8 @@ void put_fragment(uvec2 pixel, uint i, uvec2 fragment)
     pages[place] = fragment.x;
     pages[place + 1u] = fragment.y;
 }
+#define SORT_SPENT  (PAGES + 1u)
+#define SORT_ACCESS (STRIDE > 1u ? STRIDE : 0u)
 #include "common/sort_in_place.glsl"
 
 void resolve(uvec2 pixel)

@@ -27,6 +27,7 @@ const fm_method_desc fm_method = {
           .writes = { "heads", "allocated" } },
         { .name = "store", .shader = "store.glsl", .writes = { "heads", "allocated", "nodes" } },
         { .name = "resolve", .kind = FM_PASS_PIXELS, .shader = "resolve.glsl", .emits = true,
+          .resumes = FM_RESUMES_BY_N,
           .writes = { "heads", "nodes" } },
     },
 };

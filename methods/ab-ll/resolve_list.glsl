@@ -1,8 +1,11 @@
 // A list's fragments in order: copied to a private array and sorted there, as published, or, where that
-// array would be too long, the list itself is sorted. A list is its head's alone.
+// array would be too long, the list itself is sorted; in runs of the pass where the device would end its
+// loops. A list is its head's alone.
 #include "ab-ll/node.glsl"
 #include "common/sort_limit.glsl"
-#if SORTS_IN_PLACE
+#if FM_RESUMES && (defined(LISTS) || N > FM_LOOP_LIMIT / 20) // before, one merge sort is within the limit
+#include "ab-ll/sort_links_in_runs.glsl"
+#elif SORTS_IN_PLACE
 #include "ab-ll/sort_links.glsl"
 
 // Emits from `rank` on; the rank behind the last.

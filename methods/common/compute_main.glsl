@@ -22,6 +22,22 @@ uvec2 fm_rect_pixel(uint i)
 }
 #endif
 
+#if FM_FEED_PIXEL
+// Where a run of the pass goes on among a pixel's fragments, and up to which `end`: all in one, unless
+// the device would end the loop.
+uint fm_feed_from(uint first, inout uint end)
+{
+#if FM_FEED_STEP
+    first += fm_run * uint(FM_FEED_STEP);
+    if (first < end && end - first > uint(FM_FEED_STEP)) {
+        end = first + uint(FM_FEED_STEP);
+        fm_go_on();
+    }
+#endif
+    return first;
+}
+#endif
+
 void main()
 {
     uint id = gl_GlobalInvocationID.y * (gl_NumWorkGroups.x * gl_WorkGroupSize.x)
@@ -31,7 +47,7 @@ void main()
 #if defined(FM_REPLAY) && FM_FEED_PIXEL
     uvec2 pixel = uvec2(id % uint(FM_WIDTH), id / uint(FM_WIDTH));
     uint end = fm_list_offsets[id + 1u];
-    FM_LOOP for (uint i = fm_list_offsets[id]; i < end; ++i)
+    FM_LOOP for (uint i = fm_feed_from(fm_list_offsets[id], end); i < end; ++i)
         fm_take(pixel, uintBitsToFloat(fm_list[i].x), fm_list[i].y);
 #elif defined(FM_REPLAY)
     uint at = fm_list_pixels[id];
@@ -39,7 +55,8 @@ void main()
             fm_list[id].y);
 #elif FM_FEED_PIXEL
     uvec2 pixel = fm_rect_pixel(id);
-    FM_LOOP for (uint arrival = 0u; arrival < uint(FM_LAYERS); ++arrival)
+    uint end = uint(FM_LAYERS);
+    FM_LOOP for (uint arrival = fm_feed_from(0u, end); arrival < end; ++arrival)
         fm_feed_layer(pixel, arrival);
 #elif FM_FEED_ADJACENT
     fm_feed_layer(fm_rect_pixel(id / uint(FM_LAYERS)), id % uint(FM_LAYERS));
@@ -47,4 +64,5 @@ void main()
     uint pixels = FM_RECT_W * FM_RECT_H;
     fm_feed_layer(fm_rect_pixel(id % pixels), id / pixels);
 #endif
+    fm_tell_cut();
 }

@@ -58,7 +58,7 @@ void fm_emit(uvec2 pixel, int rank, float depth, uint colour)
 // 1 - A, too; the host turns it into A when it reads the image.
 void fm_emit_begin(uvec2 pixel)
 {
-    bool is_first = FM_EMIT_FIRST != 0 && fm_iteration == 0u;
+    bool is_first = FM_EMIT_FIRST != 0 && fm_iteration == 0u && fm_run == 0u;
     vec4 before = is_first ? vec4(0.0, 0.0, 0.0, 1.0) : fm_output[fm_pixel_index(pixel)];
     fm_front = before.rgb;
     fm_shows = before.a;

@@ -27,6 +27,38 @@ void fm_lost(uvec2 pixel)
     atomicAdd(fm_counters[FM_COUNTER_LOST], 1u);
 }
 
+// Of a pass that resumes: there is more to do, in another run.
+void fm_go_on()
+{
+#if FM_RESUMES
+    atomicAdd(fm_counters[FM_COUNTER_GO_ON], 1u); // a sum
+#endif
+}
+
+// The device's limit of loop iterations is reached, or would be: what this pass left out is not the method's
+// fault, and the runner refuses the case.
+void fm_cut()
+{
+#if FM_LOOP_LIMIT
+    atomicOr(fm_counters[FM_COUNTER_CUT], uint(FM_PASS_BIT)); // bits only come
+#endif
+}
+
+// At the end of every shader. Where a device ends all loops of an invocation after FM_LOOP_LIMIT
+// iterations, what they were to do is not done, and no loop goes on after that: one that should turn
+// twice and does not tells it, and the runner refuses the case. Invocations of a vector share the limit.
+void fm_tell_cut()
+{
+#if FM_TELLS_CUT
+    uint turns = 0u;
+    FM_LOOP do {
+        ++turns;
+    } while (turns < fm_two);
+    if (turns < fm_two)
+        fm_cut();
+#endif
+}
+
 #ifdef FM_CAPTURE
 // Events are counted in the checked build only: the timed one is undisturbed.
 void fm_culled()

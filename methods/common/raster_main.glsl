@@ -41,4 +41,5 @@ void main()
     if (is_alive)
         fm_take(pixel, depth, fm_in_colour);
 #endif
+    fm_tell_cut();
 }

@@ -1,6 +1,5 @@
 // Heap sort where a pixel's fragments lie: any number of them, no memory but theirs, n log n in any order.
-// An invocation has its pixel for itself. Mesa's software ends an invocation's loops after 65 535 iterations:
-// there 4500 fragments in random order come out, of 5120 most do not, and the check tells it.
+// An invocation has its pixel for itself. Where a device would end its loops (FM_RESUMES) it is done in runs.
 // The method defines, before it includes this, where the i-th is:
 //   uvec2 fragment_at(uvec2 pixel, uint i)
 //   void put_fragment(uvec2 pixel, uint i, uvec2 fragment)
@@ -24,6 +23,14 @@ void sift_down(uvec2 pixel, uint root, uint end)
     put_fragment(pixel, root, item);
 }
 
+#if FM_RESUMES
+#include "common/sort_in_runs.glsl"
+
+void emit_in_place(uvec2 pixel, uint count)
+{
+    emit_in_runs(pixel, count, count);
+}
+#else
 void sort_in_place(uvec2 pixel, uint count)
 {
     FM_LOOP for (uint root = count / 2u; root > 0u; --root)
@@ -44,3 +51,4 @@ void emit_in_place(uvec2 pixel, uint count)
         fm_emit(pixel, int(i), uintBitsToFloat(fragment.x), fragment.y);
     }
 }
+#endif

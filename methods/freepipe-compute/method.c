@@ -25,7 +25,8 @@ const fm_method_desc fm_method = {
         { .name = "store", .kind = FM_PASS_TRIANGLES, .shader = "store.glsl",
           .writes = { "counters", "fragments", "unfinished" } },
         { .name = "resolve", .kind = FM_PASS_PIXELS, .shader = "resolve.glsl",
-          .reads = { "counters" }, .writes = { "fragments" }, .emits = true },
+          .reads = { "counters" }, .writes = { "fragments" }, .emits = true,
+          .resumes = FM_RESUMES_BY_N },
     },
     .loops = { { .first = "begin", .last = "store", .until_zero = "unfinished" } },
 };

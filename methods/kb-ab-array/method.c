@@ -24,6 +24,7 @@ const fm_method_desc fm_method = {
           .writes = { "counters" } },
         { .name = "store", .shader = "ab-array/store.glsl", .writes = { "counters", "fragments" } },
         { .name = "resolve", .kind = FM_PASS_PIXELS, .shader = "resolve.glsl", .emits = true,
+          .resumes = FM_RESUMES_BY_N_K,
           .reads = { "counters", "fragments" } },
     },
 };

@@ -30,6 +30,7 @@ const fm_method_desc fm_method = {
         { .name = "store", .shader = "ab-ll/store.glsl",
           .writes = { "heads", "allocated", "nodes" } },
         { .name = "resolve", .kind = FM_PASS_PIXELS, .shader = "resolve.glsl", .emits = true,
+          .resumes = FM_RESUMES_BY_N_K,
           .reads = { "heads", "nodes" } },
     },
 };

@@ -1,4 +1,13 @@
 #include "ab-ll/node.glsl"
+#if FM_RESUMES // all of the list sorted, in runs; then its first k
+#define LIST_MOST K
+#include "ab-ll/sort_links_in_runs.glsl"
+
+void resolve(uvec2 pixel)
+{
+    resolve_list(pixel, fm_pixel_index(pixel), 0u);
+}
+#else
 #include "common/select.glsl"
 
 void resolve(uvec2 pixel)
@@ -10,3 +19,4 @@ void resolve(uvec2 pixel)
     }
     emit_selected(pixel);
 }
+#endif

@@ -39,6 +39,7 @@ const fm_method_desc fm_method = {
         { .name = "store", .shader = "s-buffer/store.glsl", .reads = { "bins" },
           .writes = { "addresses", "fragments" } },
         { .name = "resolve", .kind = FM_PASS_PIXELS, .shader = "resolve.glsl", .emits = true,
+          .resumes = FM_RESUMES_BY_N_K,
           .reads = { "counters", "addresses", "bins", "fragments" } },
     },
 };

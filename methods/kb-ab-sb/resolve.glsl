@@ -1,3 +1,12 @@
+#if FM_RESUMES
+#include "s-buffer/places.glsl"
+#include "common/select_in_runs.glsl"
+
+void resolve(uvec2 pixel)
+{
+    emit_nearest(pixel, min(counters[fm_pixel_index(pixel)], N));
+}
+#else
 #include "s-buffer/place.glsl"
 #include "common/select.glsl"
 
@@ -10,3 +19,4 @@ void resolve(uvec2 pixel)
         select_nearest(fragments[bin_place(pixel, end - 1u - back)]);
     emit_selected(pixel);
 }
+#endif

@@ -25,6 +25,7 @@ const fm_method_desc fm_method = {
         { .name = "settle", .kind = FM_PASS_CLEAR, .writes = { "changed" } },
         { .name = "store", .shader = "store.glsl", .writes = { "changed", "fragments" } },
         { .name = "resolve", .kind = FM_PASS_PIXELS, .shader = "resolve.glsl", .emits = true,
+          .resumes = FM_RESUMES_BY_K,
           .reads = { "fragments" } },
     },
     .loops = { { .first = "settle", .last = "store", .until_zero = "changed" } },

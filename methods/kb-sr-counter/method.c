@@ -23,6 +23,7 @@ const fm_method_desc fm_method = {
         { .name = "clear", .kind = FM_PASS_CLEAR, .writes = { "arrivals" } },
         { .name = "store", .shader = "store.glsl", .writes = { "arrivals", "fragments" } },
         { .name = "resolve", .kind = FM_PASS_PIXELS, .shader = "resolve.glsl", .emits = true,
+          .resumes = FM_RESUMES_BY_K,
           .reads = { "arrivals", "fragments" } },
     },
 };

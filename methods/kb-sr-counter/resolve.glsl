@@ -1,4 +1,15 @@
 #include "common/array.glsl"
+#if FM_RESUMES
+#define PLACES K
+#include "ab-array/places.glsl"
+#define SORT_MOST K
+#include "common/sort_in_place.glsl"
+
+void resolve(uvec2 pixel)
+{
+    emit_in_place(pixel, min(arrivals[fm_pixel_index(pixel)], K));
+}
+#else
 #define SORT_CAPACITY K
 #include "common/sort.glsl"
 
@@ -10,3 +21,4 @@ void resolve(uvec2 pixel)
     sort_fragments(count);
     emit_sorted(pixel, count);
 }
+#endif

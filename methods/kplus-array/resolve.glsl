@@ -1,13 +1,31 @@
 #include "common/array.glsl"
-#ifndef SORT_CAPACITY
-#define SORT_CAPACITY K
-#endif
-#include "common/sort.glsl"
 
 // Where the i-th of `count` fragments lies: in the last slots.
 #ifndef SLOT_OF
 #define SLOT_OF(i) (K - 1u - (i))
 #endif
+
+#if FM_RESUMES // so many would take more iterations than the device allows: in runs, where they lie
+uvec2 fragment_at(uvec2 pixel, uint i)
+{
+    return fragments[array_slot(pixel, SLOT_OF(i), K)];
+}
+void put_fragment(uvec2 pixel, uint i, uvec2 fragment)
+{
+    fragments[array_slot(pixel, SLOT_OF(i), K)] = fragment;
+}
+#define SORT_MOST K
+#include "common/sort_in_place.glsl"
+
+void resolve(uvec2 pixel)
+{
+    emit_in_place(pixel, counters[fm_pixel_index(pixel)]);
+}
+#else
+#ifndef SORT_CAPACITY
+#define SORT_CAPACITY K
+#endif
+#include "common/sort.glsl"
 
 void resolve(uvec2 pixel)
 {
@@ -17,3 +35,4 @@ void resolve(uvec2 pixel)
     sort_fragments(count);
     emit_sorted(pixel, count);
 }
+#endif

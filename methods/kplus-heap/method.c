@@ -24,6 +24,7 @@ const fm_method_desc fm_method = {
         { .name = "store", .shader = "store.glsl", .exclusive = true,
           .writes = { "counters", "fragments" } },
         { .name = "resolve", .kind = FM_PASS_PIXELS, .shader = "resolve.glsl",
-          .emits = true, .reads = { "counters", "fragments" } },
+          .emits = true,
+          .resumes = FM_RESUMES_BY_K, .reads = { "counters", "fragments" } },
     },
 };

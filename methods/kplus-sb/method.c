@@ -38,6 +38,7 @@ const fm_method_desc fm_method = {
         { .name = "store", .shader = "store.glsl", .exclusive = true, .reads = { "addresses" },
           .writes = { "counters", "fragments" } },
         { .name = "resolve", .kind = FM_PASS_PIXELS, .shader = "resolve.glsl", .emits = true,
+          .resumes = FM_RESUMES_BY_K,
           .reads = { "counters", "addresses", "fragments" } },
     },
 };

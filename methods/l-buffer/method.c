@@ -31,7 +31,8 @@ const fm_method_desc fm_method = {
         { .name = "store", .shader = "s-buffer/store.glsl", .reads = { "bins" },
           .writes = { "addresses", "fragments" } },
         { .name = "resolve", .kind = FM_PASS_PIXELS, .shader = "s-buffer/resolve.glsl",
-          .emits = true, .reads = { "counters", "addresses", "bins" },
+          .emits = true,
+          .resumes = FM_RESUMES_BY_N, .reads = { "counters", "addresses", "bins" },
           .writes = { "fragments" } },
     },
 };

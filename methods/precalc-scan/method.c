@@ -31,6 +31,7 @@ const fm_method_desc fm_method = {
           .reads = { "counters" }, .writes = { "sums", "addresses" } },
         { .name = "store", .shader = "store.glsl", .writes = { "addresses", "fragments" } },
         { .name = "resolve", .kind = FM_PASS_PIXELS, .shader = "resolve.glsl", .emits = true,
+          .resumes = FM_RESUMES_BY_N,
           .reads = { "counters", "addresses" }, .writes = { "fragments" } },
     },
     .loops = { { .first = "sum", .last = "sum", .count = 3 },

@@ -36,6 +36,7 @@ const fm_method_desc fm_method = {
         { .name = "store", .shader = "store.glsl", .reads = { "bins" },
           .writes = { "addresses", "fragments" } },
         { .name = "resolve", .kind = FM_PASS_PIXELS, .shader = "resolve.glsl", .emits = true,
+          .resumes = FM_RESUMES_BY_N,
           .reads = { "counters", "addresses", "bins" }, .writes = { "fragments" } },
     },
 };

@@ -136,7 +136,7 @@ void store(uint i)
     is_cut = is_cut || turns < 8u;
 #endif
     if (is_inside && is_cut)
-        fm_lost(own_pixel); // never silent
+        fm_cut(); // never silent
     if (is_inside)
         fm_emit_end(own_pixel);
 }

@@ -1,3 +1,5 @@
+#include <inttypes.h>
+
 #include "frame_internal.h"
 #include "model/formula.h"
 
@@ -27,6 +29,7 @@ static const fm_loop *loop_from(const fm_instance *instance, size_t first, const
 typedef struct loop_end {
     bool is_counted;     /* never more than `count` iterations */
     uint32_t count, max; /* iterations */
+    bool is_ours;        /* the method has no max of its own */
     int total;           /* until it is zero; -1: none. Neither: the hook says */
 } loop_end;
 
@@ -36,6 +39,7 @@ static loop_end end_of(const fm_instance *instance, const fm_loop *loop)
         .is_counted = loop_is_counted(loop),
         .count = formula_count(loop, &instance->workload),
         .max = loop->max > 0 ? loop->max : LOOP_MAX_DEFAULT,
+        .is_ours = loop->max == 0,
         .total = total_index(instance->method, loop->until_zero),
     };
 }
@@ -66,6 +70,19 @@ static fm_status swap_copies(frame_run *frame)
     return FM_OK;
 }
 
+/* A loop that the method wanted to go on is not done. */
+static fm_status judge_end(const frame_run *frame, const loop_end *end, uint32_t iterations)
+{
+    const fm_instance *instance = frame->instance;
+    if (!end->is_ours || end->is_counted || end->total < 0 || iterations < end->max ||
+        instance->totals[end->total] == 0)
+        return FM_OK;
+    return fm_fail(frame->err, FM_UNSUPPORTED,
+                   "%s: total '%s' is still %" PRIu64 " after %u iterations", instance->method->id,
+                   instance->method->totals[end->total].name, instance->totals[end->total],
+                   iterations);
+}
+
 static fm_status run_loop(frame_run *frame, const fm_loop *loop, fm_next *next)
 {
     fm_instance *instance = frame->instance;
@@ -74,11 +91,14 @@ static fm_status run_loop(frame_run *frame, const fm_loop *loop, fm_next *next)
     const loop_end end = end_of(instance, loop);
     fm_status status = FM_OK;
     *next = FM_NEXT;
-    for (uint32_t i = 0; status == FM_OK && goes_on(instance, &end, i, *next); i++) {
+    uint32_t i = 0;
+    for (; status == FM_OK && goes_on(instance, &end, i, *next); i++) {
         status = frame_range(frame, first, last, i, loop, next);
         if (status == FM_OK)
             status = swap_copies(frame);
     }
+    if (status == FM_OK)
+        status = judge_end(frame, &end, i);
     if (*next == FM_REPEAT) /* heard: it is not for the loop around this one */
         *next = FM_NEXT;
     return status;

@@ -40,6 +40,8 @@ typedef struct fm_frame_result {
     uint64_t culled, locked;         /* checked build only: by the method's own test; locks taken */
     uint64_t arrived; /* checked build only: fragments that pass `store` got to see when it first
                          ran in the frame; what an occupancy map culled is not among them */
+    uint32_t cut; /* passes (bit i: number i) in which the device ended loops: what they were to do
+                     is not done */
     uint32_t scene_passes; /* over the scene in the last try */
     uint32_t redos;        /* frames done again because something had to grow */
     uint64_t redone_ns;    /* of all passes of those frames; in no pass_ns, nor in span_ns */
@@ -64,6 +66,11 @@ bool instance_can_emit_again(const fm_instance *instance);
 /* On a software rasteriser a spin lock's owner may lose its processor for longer than all tries
  * that the waiting one's loops allow: then a frame loses fragments that the next one keeps. */
 bool instance_may_give_up(const fm_instance *instance);
+
+/* FM_UNSUPPORTED, with pass and numbers: this frame is not to be believed, because the device ended
+ * loops of it. instance_frame answers so itself, unless only exclusive passes are concerned, where
+ * the next frame may wait less for its locks. */
+fm_status instance_cut(const fm_instance *instance, uint32_t cut, fm_error *err);
 
 /* Fragments that reach the method, for its formulas: fewer than the scene has, if some are culled
  * before. */

@@ -1,3 +1,4 @@
+#include <stdio.h>
 #include <string.h>
 
 #include "base/clock.h"
@@ -30,6 +31,7 @@ static fm_status start(frame_run *frame)
     frame->result->scene_passes = 0;
     frame->redo = false;
     frame->params_are_set = false;
+    frame->gone_on = 0;
     instance->parity = 0;
     if (status == FM_OK)
         status = frame_record(frame);
@@ -78,6 +80,30 @@ static fm_status run_once(frame_run *frame)
     return status == FM_OK && !frame->redo ? frame_late_totals(frame) : status;
 }
 
+fm_status instance_cut(const fm_instance *instance, uint32_t cut, fm_error *err)
+{
+    const fm_workload *workload = &instance->workload;
+    char k[24] = "";
+    if (workload->k > 0)
+        snprintf(k, sizeof k, ", k = %u", workload->k);
+    for (size_t i = 0; i < instance->pass_count; i++)
+        if ((cut >> i & 1u) != 0)
+            return fm_fail(err, FM_UNSUPPORTED,
+                           "n = %u%s: the loops of pass '%s' need more than the %u iterations "
+                           "after which this driver ends them",
+                           workload->n, k, instance->method->passes[i].name,
+                           instance->device->caps.loop_limit);
+    return FM_OK;
+}
+
+static uint32_t exclusive_passes(const fm_instance *instance)
+{
+    uint32_t bits = 0;
+    for (size_t i = 0; i < instance->pass_count; i++)
+        bits |= (uint32_t)instance->method->passes[i].exclusive << i;
+    return bits;
+}
+
 static fm_status read_counters(frame_run *frame)
 {
     uint32_t words[STAGE_COUNTER_COUNT] = { 0 };
@@ -89,6 +115,10 @@ static fm_status read_counters(frame_run *frame)
     frame->result->culled = words[STAGE_COUNTER_CULLED];
     frame->result->locked = words[STAGE_COUNTER_LOCKED];
     frame->result->arrived = words[STAGE_COUNTER_ARRIVED];
+    frame->result->cut = words[STAGE_COUNTER_CUT];
+    if (status == FM_OK)
+        status =
+            instance_cut(instance, frame->result->cut & ~exclusive_passes(instance), frame->err);
     return status;
 }
 
@@ -130,6 +160,7 @@ fm_status instance_emit(fm_instance *instance, const fm_band *band, fm_error *er
     if (status != FM_OK)
         return status;
     device->ops->fill(device, instance->desc.stage->slots[STAGE_CAPTURE_COUNTS].buffer, 0);
+    device->ops->fill(device, instance->desc.stage->slots[STAGE_COUNTERS].buffer, 0);
     for (size_t i = 0; i < instance->pass_count && status == FM_OK; i++)
         if (instance->method->passes[i].emits)
             status = frame_pass(&frame, i, 0);
@@ -137,7 +168,9 @@ fm_status instance_emit(fm_instance *instance, const fm_band *band, fm_error *er
     fm_error ignored;
     frame.err = status == FM_OK ? err : &ignored;
     const fm_status ended = frame_flush(&frame);
-    return status == FM_OK ? ended : status;
+    if (status == FM_OK)
+        status = ended;
+    return status == FM_OK ? read_counters(&frame) : status;
 }
 
 fm_status instance_image_hash(uint64_t *hash, fm_instance *instance, fm_error *err)

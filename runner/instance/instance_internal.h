@@ -91,6 +91,14 @@ bool pass_is_drawn(const fm_instance *instance, const fm_pass *pass);
 bool instance_is_narrow(const fm_instance *instance);
 /* Not run on this device. */
 bool pass_is_left_out(const fm_instance *instance, const fm_pass *pass);
+/* Its place in the descriptor; FM_MAX_PASSES: the runner's own. */
+uint32_t pass_number(const fm_instance *instance, const fm_pass *pass);
+/* Iterations that a shader may turn in one run of a pass that resumes. */
+uint32_t pass_run_iterations(const fm_instance *instance);
+/* Runs until no invocation has more to do: the descriptor says so (fm_resumes), or the feed. */
+bool pass_resumes(const fm_instance *instance, const fm_pass *pass);
+/* Fragments that feed compute-pixel takes a run; 0: all. */
+uint32_t pass_feed_step(const fm_instance *instance, const fm_pass *pass);
 /* Its shader sees the scene's triangles. */
 bool pass_reads_triangles(const fm_instance *instance, const fm_pass *pass);
 /* Its store() is guarded by the device's interlock, not by a spin lock. */

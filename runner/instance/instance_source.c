@@ -46,10 +46,11 @@ static void add_pixel_main(fm_text *text, const fm_pass *pass, bool drawn)
             "    if (id >= uint(FM_PIXELS))\n        return;\n"
             "    uvec2 pixel = uvec2(id %% uint(FM_WIDTH), id / uint(FM_WIDTH));\n");
     if (pass->emits)
-        text_add(text, "    fm_emit_begin(pixel);\n    %s(pixel);\n    fm_emit_end(pixel);\n}\n",
+        text_add(text, "    fm_emit_begin(pixel);\n    %s(pixel);\n    fm_emit_end(pixel);\n",
                  name);
     else
-        text_add(text, "    %s(pixel);\n}\n", name);
+        text_add(text, "    %s(pixel);\n", name);
+    text_add(text, "    fm_tell_cut();\n}\n");
 }
 
 static void add_index_main(fm_text *text, const fm_instance *instance, const fm_pass *pass)
@@ -65,7 +66,7 @@ static void add_index_main(fm_text *text, const fm_instance *instance, const fm_
                  (uint32_t)pass_invocations(instance, pass));
     if (pass->kind == FM_PASS_TOTAL) /* the total travels in the parameter block */
         text_add(text, "    if (id / %uu >= fm_units)\n        return;\n", lanes);
-    text_add(text, "    fm_lane = id %% %uu;\n    %s(id / %uu);\n}\n",
+    text_add(text, "    fm_lane = id %% %uu;\n    %s(id / %uu);\n    fm_tell_cut();\n}\n",
              pass->kind == FM_PASS_INDIRECT ? (uint32_t)STAGE_GROUP_SIZE : lanes, name, lanes);
 }
 

@@ -57,6 +57,8 @@ static void define_counters(fm_text *text)
     shader_define(text, "FM_COUNTER_ARRIVED", STAGE_COUNTER_ARRIVED);
     shader_define(text, "FM_COUNTER_IMAGE_LOW", STAGE_COUNTER_IMAGE_LOW);
     shader_define(text, "FM_COUNTER_IMAGE_HIGH", STAGE_COUNTER_IMAGE_HIGH);
+    shader_define(text, "FM_COUNTER_GO_ON", STAGE_COUNTER_GO_ON);
+    shader_define(text, "FM_COUNTER_CUT", STAGE_COUNTER_CUT);
 }
 
 static bool release_exchanges(const fm_instance *instance)
@@ -71,6 +73,15 @@ static bool release_exchanges(const fm_instance *instance)
         return true;
     }
     return instance->device->caps.needs_lock_barriers;
+}
+
+/* What a frame that is timed does not need to be told: far from the limit the checked one, which
+ * runs the same loops, is enough. */
+static bool tells_cut(const fm_instance *instance)
+{
+    const uint32_t limit = instance->device->caps.loop_limit;
+    const uint64_t comparisons = (uint64_t)instance->workload.n * (instance->workload.k + 2);
+    return limit > 0 && (instance->desc.is_capture || comparisons > limit / 16);
 }
 
 void pass_define(fm_text *text, const fm_instance *instance, const fm_pass *pass)
@@ -90,6 +101,11 @@ void pass_define(fm_text *text, const fm_instance *instance, const fm_pass *pass
     shader_define(text, "FM_GROUP_LANES", FM_GROUP_LANES);
     shader_define(text, "FM_TILE_PX", FM_TILE_PX);
     shader_define(text, "FM_LOOP_LIMIT", caps->loop_limit);
+    shader_define(text, "FM_RUN_ITERATIONS", pass_run_iterations(instance));
+    shader_define(text, "FM_RESUMES", pass_resumes(instance, pass));
+    shader_define(text, "FM_FEED_STEP", pass_feed_step(instance, pass));
+    shader_define(text, "FM_TELLS_CUT", tells_cut(instance));
+    shader_define(text, "FM_PASS_BIT", 1u << pass_number(instance, pass));
     shader_define(text, "FM_SUBGROUP_SIZE", caps->subgroup_size);
     shader_define(text, "FM_NARROW", instance_is_narrow(instance));
     shader_define_features(text, instance->method->features_optional, caps->features);

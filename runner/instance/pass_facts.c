@@ -15,6 +15,53 @@ bool pass_is_left_out(const fm_instance *instance, const fm_pass *pass)
     return pass->narrow_only && !instance_is_narrow(instance);
 }
 
+uint32_t pass_number(const fm_instance *instance, const fm_pass *pass)
+{
+    uint32_t i = 0;
+    while (i < FM_MAX_PASSES && pass != &instance->method->passes[i])
+        i++;
+    return i;
+}
+
+/* An eighth is for what a shader does besides. */
+uint32_t pass_run_iterations(const fm_instance *instance)
+{
+    return instance->device->caps.loop_limit / 8 * 7;
+}
+
+/* What a store costs at most: twice k, since a lock runs its loops again for nobody, and its own.
+ */
+uint32_t pass_feed_step(const fm_instance *instance, const fm_pass *pass)
+{
+    enum { STORE_ITERATIONS = 48 };
+    const uint32_t each = STORE_ITERATIONS + 2 * instance->workload.k;
+    const uint32_t step = pass_run_iterations(instance) / each;
+    const bool loops = pass_is_scene(pass) && instance->desc.stage->feed == FM_FEED_COMPUTE_PIXEL &&
+                       instance->device->caps.loop_limit > 0;
+    return loops && instance->workload.n > step ? step : 0;
+}
+
+bool pass_resumes(const fm_instance *instance, const fm_pass *pass)
+{
+    const uint64_t n = instance->workload.n, k = instance->workload.k;
+    const uint32_t limit = instance->device->caps.loop_limit;
+    const bool is_deep_k = k > limit / 64;
+    if (limit == 0)
+        return false;
+    switch (pass->resumes) {
+    case FM_RESUMES_BY_N:
+        return n > limit / 32;
+    case FM_RESUMES_BY_K:
+        return is_deep_k;
+    case FM_RESUMES_BY_N_K:
+        return is_deep_k || n * (k + 2) > limit / 4 * 3;
+    case FM_RESUMES_NEVER:
+    case FM_RESUMES_COUNT:
+        break;
+    }
+    return pass_feed_step(instance, pass) > 0;
+}
+
 uint32_t pass_lanes(const fm_instance *instance, const fm_pass *pass)
 {
     const uint32_t lanes =

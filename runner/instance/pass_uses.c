@@ -45,6 +45,16 @@ static void add_emit(built_pass *built, fm_instance *instance)
         pass_use_stage(built, instance, STAGE_OUTPUT_BACK, FM_ACCESS_READ | FM_ACCESS_WRITE);
 }
 
+/* As pass.h says of fm_resumes: what such a pass reads it may sort. */
+static uint32_t read_access(const fm_instance *instance, const fm_pass *pass, const char *name)
+{
+    const fm_resource *resource =
+        &instance->method->resources[resource_find(instance->method, name).index];
+    const bool may_write = pass->resumes != FM_RESUMES_NEVER && pass_resumes(instance, pass) &&
+                           resource->kind == FM_RESOURCE_BUFFER;
+    return may_write ? FM_ACCESS_READ | FM_ACCESS_WRITE : FM_ACCESS_READ;
+}
+
 void pass_collect_uses(built_pass *built, fm_instance *instance, const fm_pass *pass)
 {
     const bool is_shared = pass_is_scene(pass); /* many invocations a pixel */
@@ -56,7 +66,8 @@ void pass_collect_uses(built_pass *built, fm_instance *instance, const fm_pass *
             built->refs[i].index = -1;
     }
     for (int i = 0; i < FM_MAX_ACCESSES && pass->reads[i] != NULL; i++)
-        add_resource(built, instance, pass->reads[i], FM_ACCESS_READ, is_shared);
+        add_resource(built, instance, pass->reads[i], read_access(instance, pass, pass->reads[i]),
+                     is_shared);
     for (int i = 0; i < FM_MAX_ACCESSES && pass->writes[i] != NULL; i++)
         add_resource(built, instance, pass->writes[i], FM_ACCESS_READ | FM_ACCESS_WRITE, is_shared);
     if (pass->exclusive && instance->is_spin_locked)

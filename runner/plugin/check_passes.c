@@ -205,8 +205,11 @@ static fm_status check_flags(const fm_checked_method *check, const fm_pass *pass
         return fm_fail(err, FM_INVALID, "exclusive: only scene passes can be");
     if (pass->flat_tessellation && pass->kind != FM_PASS_SCENE)
         return fm_fail(err, FM_INVALID, "flat_tessellation: only scene passes can have it");
-    if (check_range(pass->cover, FM_COVER_COUNT, "cover", err) != FM_OK)
+    if (check_range(pass->cover, FM_COVER_COUNT, "cover", err) != FM_OK ||
+        check_range(pass->resumes, FM_RESUMES_COUNT, "resumes", err) != FM_OK)
         return FM_INVALID;
+    if (pass->resumes != FM_RESUMES_NEVER && pass->kind != FM_PASS_PIXELS)
+        return fm_fail(err, FM_INVALID, "resumes: only passes over pixels can");
     if (pass->cover != FM_COVER_NONE &&
         (pass->kind != FM_PASS_SCENE || check->method->feeds != FM_FEED_RASTER))
         return fm_fail(err, FM_INVALID,

@@ -178,10 +178,11 @@ static void declare_table(fm_text *text, const fm_use *uses, size_t count, const
 
 void shader_declare(fm_text *text, const fm_use *uses, size_t count, const char *part)
 {
-    text_add(text,
-             "layout(std140, binding = %d) uniform fm_params_block {\n"
-             "    uint fm_iteration, fm_band_first, fm_band_pixels, fm_units;\n};\n",
-             SHADER_BINDING_PARAMS);
+    text_add(
+        text,
+        "layout(std140, binding = %d) uniform fm_params_block {\n"
+        "    uint fm_iteration, fm_band_first, fm_band_pixels, fm_units, fm_two, fm_run;\n};\n",
+        SHADER_BINDING_PARAMS);
     for (size_t i = 0; i < count; i++)
         if (uses[i].slot->by_address)
             text_add(text,

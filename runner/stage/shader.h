@@ -44,8 +44,11 @@ typedef struct fm_params {
     uint32_t iteration;               /* of the pass's innermost loop, from 0 */
     uint32_t band_first, band_pixels; /* the pixels whose fragments a checked frame writes down */
     uint32_t units;                   /* FM_PASS_TOTAL: what its total counts; else 0 */
+    uint32_t two;                     /* always 2, which no compiler knows */
+    uint32_t run;                     /* of a pass that resumes, from 0 */
+    uint32_t unused[2];
 } fm_params;
-_Static_assert(sizeof(fm_params) == 16, "std140 block fm_params");
+_Static_assert(sizeof(fm_params) == 32, "std140 block fm_params");
 
 /* One line of std140 block fm_table. */
 typedef struct fm_table_line {

@@ -35,6 +35,8 @@ enum {
     STAGE_COUNTER_ARRIVED,
     STAGE_COUNTER_IMAGE_LOW, /* hash of the image, after instance_image_hash */
     STAGE_COUNTER_IMAGE_HIGH,
+    STAGE_COUNTER_GO_ON, /* invocations that want their pass to run again; added up */
+    STAGE_COUNTER_CUT,   /* bits: passes in which the device ended loops */
     STAGE_COUNTER_COUNT
 };
 

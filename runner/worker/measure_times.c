@@ -24,11 +24,11 @@ fm_status measure_frame(fm_frame_result *result, fm_measurement *measurement, fm
         status = instance_frame(result, instance, band, err);
         measurement->frames_redone += result->redos;
         measurement->redone_ns += result->redone_ns;
-        if (status != FM_OK || result->lost == 0)
+        if (status != FM_OK || (result->lost == 0 && result->cut == 0))
             break;
         measurement->frames_lossy++;
     }
-    return status;
+    return status == FM_OK ? instance_cut(instance, result->cut, err) : status;
 }
 
 /* The method and the floor of one launch. */

@@ -68,6 +68,43 @@ static void three_thousand_fragments_are_sorted_where_they_lie(void **state)
     kit_close(&kit);
 }
 
+/* 80 000 iterations in each fragment: a driver that ends them is told of, with its limit; one that
+ * does not is right. */
+static void loops_that_a_driver_ends_are_refused(void **state)
+{
+    static const kit_mistake mistakes[] = {
+        { "raster_main.glsl", "bool is_alive = true;",
+          "uint spent = 0u; FM_LOOP while (spent < fm_two * 40000u) ++spent;"
+          "bool is_alive = spent > 0u;" },
+        { "emit.glsl", "bool is_first = ",
+          "uint spent = 0u; FM_LOOP while (spent < fm_two * 40000u) ++spent;"
+          "bool is_first = spent > 0u && " },
+    };
+    static const char *const told[] = { "pass 'store'", "pass 'resolve'" };
+    for (size_t i = 0; i < sizeof mistakes / sizeof mistakes[0]; i++) {
+        scene_kit kit;
+        kit_scene scene;
+        fm_measurement m;
+        fm_error err = { 0 };
+        kit_open(&kit, device_of(state));
+        kit_scene_open(&scene, &kit, "width_px=2 height_px=1 n=20 tessellation=1 k=700");
+        kit_break(&kit, &mistakes[i]); /* not for the truth */
+        const fm_status status =
+            kit_try(&m, &scene, &(kit_way){ "kb", FM_FEED_RASTER, "" }, true, &err);
+        if (kit.device->caps.loop_limit == 0) {
+            assert_int_equal(status, FM_OK);
+        } else {
+            assert_int_equal(status, FM_UNSUPPORTED);
+            assert_non_null(strstr(err.message, told[i]));
+            assert_non_null(strstr(err.message, "n = 20, k = 700"));
+            assert_non_null(strstr(err.message, "65535"));
+        }
+        measurement_free(&m);
+        kit_scene_close(&scene);
+        kit_close(&kit);
+    }
+}
+
 /* Were A kept between passes and not 1 - A, what shows would never
  * fall below an ulp of 1, and each of the layers behind would still add to the picture. */
 static void layers_behind_an_opaque_picture_add_nothing(void **state)
@@ -87,6 +124,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         ON_VULKAN_AND_OSMESA(a_buffers_sort_any_number_of_fragments),
         ON_VULKAN_AND_OSMESA(three_thousand_fragments_are_sorted_where_they_lie),
+        ON_VULKAN_AND_OSMESA(loops_that_a_driver_ends_are_refused),
         ON_VULKAN_AND_OSMESA(layers_behind_an_opaque_picture_add_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -304,6 +304,9 @@ static void plugin_check_rejects_bad_passes(void **state)
     REFUSES(m.passes[RESOLVE].exclusive = true, "exclusive");
     REFUSES(m.passes[RESOLVE].flat_tessellation = true, "flat_tessellation");
     REFUSES(m.passes[STORE].cover = FM_COVER_COUNT, "cover");
+    REFUSES(m.passes[STORE].resumes = FM_RESUMES_BY_N, "resumes: only passes over pixels can");
+    REFUSES(m.passes[RESOLVE].resumes = FM_RESUMES_COUNT, "resumes");
+    ACCEPTS(m.passes[RESOLVE].resumes = FM_RESUMES_BY_N_K);
     REFUSES(m.passes[STORE].cover = FM_COVER_HULL, "cover: only scene passes");
     REFUSES((m.feeds = FM_FEED_RASTER, m.passes[RESOLVE].cover = FM_COVER_HULL),
             "cover: only scene passes");

@@ -52,8 +52,11 @@
  *   events        fm_culled() and fm_locked() count in the checked build only
  *   loops         fm_iteration is the number of the running iteration of the innermost loop, a uint
  *                 from 0. FM_LOOP before a `for` or `while` keeps it from being unrolled, so that
- *                 pipelines compile in less time. FM_LOOP_LIMIT: so many iterations of all loops
- *                 together end an invocation on this device, without a word; 0: none do
+ *                 pipelines compile in less time. FM_LOOP_LIMIT: after so many iterations of all
+ *                 loops of an invocation this device ends them all; 0: it never does. The runner
+ *                 finds that out behind your function and refuses the case as not_supported; a
+ *                 pass may do its work in several runs instead (fm_resumes). A shader that
+ *                 counts its loops, and stops before, says so by fm_cut()
  *   locks         an exclusive store() runs alone at its pixel. A spin lock gives up after
  *                 FM_SPIN_MAX tries and counts the fragment as lost. The lock orders accesses to
  *                 buffers only: keep what fragments share in buffers, not in images
@@ -185,6 +188,21 @@ typedef struct fm_state {
     uint32_t sample_mask_step;        /* the mask is shifted left by i times this */
 } fm_state;
 
+/* By which number the loops of a pass grow so far that a device ends them (FM_LOOP_LIMIT). Where n
+ * or k is beyond the bound below, FM_RESUMES is 1 in the pass's shader: it does a part of the work,
+ * in FM_RUN_ITERATIONS at most, and calls fm_go_on() if there is more. As long as some invocation
+ * does, the pass runs again with fm_run one higher: 0, 1, 2, ... What has to outlive a run lies in
+ * buffers; those in `reads` may be written, too. Elsewhere, so on a device without a limit,
+ * FM_RESUMES is 0 and the pass runs once. */
+typedef enum fm_resumes {
+    FM_RESUMES_NEVER,  /* beyond the limit the case is not_supported */
+    FM_RESUMES_BY_N,   /* it sorts n fragments: n above FM_LOOP_LIMIT / 32 */
+    FM_RESUMES_BY_K,   /* it sorts k: k above FM_LOOP_LIMIT / 64 */
+    FM_RESUMES_BY_N_K, /* it compares each of n with k: n (k + 2) above 3/4 of FM_LOOP_LIMIT, or the
+                          bound of k */
+    FM_RESUMES_COUNT   /* how many there are; none */
+} fm_resumes;
+
 /* One step of a method. Each pass has its own time in samples.csv; `clear`, `count`, `reference`,
  * `store` and `resolve` have columns in summary.csv. Barriers follow from reads, writes and
  * attachments: a plugin says nothing else of order. */
@@ -217,6 +235,7 @@ typedef struct fm_pass {
                        and barriers */
     uint32_t lanes_narrow; /* replaces lanes where subgroups have fewer than 32; 0 is lanes */
     bool narrow_only;      /* the pass is left out where subgroups have 32 lanes or more */
+    fm_resumes resumes;    /* FM_PASS_PIXELS: see above */
 
     /* Not yet, each refused where it is set. */
     bool ordered_interlock;  /* exclusive: fragments of a pixel enter store() in drawing order */
@@ -237,7 +256,8 @@ typedef struct fm_loop {
     uint32_t count_per_k;     /* so many for each k, plus */
     uint32_t count_per_n;     /* so many for each n, the most fragments of any pixel, plus */
     const char *until_zero;   /* a total; the first iteration always runs */
-    uint32_t max;             /* never more iterations than this; 0 is 65536 */
+    uint32_t max;             /* never more iterations than this; 0 is 65536, after which a total
+                                 that is not zero makes the case not_supported */
     const char *count_option; /* the whole number that this option is */
 } fm_loop;
 
