@@ -19,19 +19,6 @@ static bool is_judged(const fm_method_desc *method, const kit_scene *scene)
            (method->family != FM_FAMILY_PEELING || scene->scene->n < 1000);
 }
 
-/* A lock may be given up where others hold it: race_test and the column fragments_lost tell of it.
- */
-static bool may_give_up(const scene_kit *kit, const kit_way *way)
-{
-    for (size_t at = 0; at < kit->plugins.count; at++) {
-        const fm_method_desc *method = kit_method(kit, at);
-        for (size_t i = 0; strcmp(method->id, way->method) == 0 && i < FM_MAX_PASSES; i++)
-            if (method->passes[i].exclusive)
-                return kit->device->caps.is_software && way->feed != FM_FEED_RASTER;
-    }
-    return false;
-}
-
 /* Its window of fragments lives in registers: what a round needs cannot outlive a run. */
 static bool may_reach_the_limit(const kit_way *way)
 {
@@ -46,15 +33,11 @@ static void expect_exact(kit_scene *scene, const kit_way *way)
     char where[256];
     kit_tell(where, way);
     const fm_status status = kit_try(&m, scene, way, true, &err);
-    const bool gave_up = status == FM_OK && m.lost > 0 && may_give_up(scene->kit, way);
     if (status != FM_OK &&
         (status != FM_UNSUPPORTED ||
          (strstr(err.message, "iterations") != NULL && !may_reach_the_limit(way))))
         fail_msg("n = %u, %s: %s", scene->scene->n, where, err.message);
-    if (gave_up)
-        print_message("n = %u, %s: a lock was given up\n", scene->scene->n, where);
-    if (status == FM_OK && !gave_up &&
-        m.check.missing + m.check.extra + m.check.misordered + m.lost != 0)
+    if (status == FM_OK && m.check.missing + m.check.extra + m.check.misordered + m.lost != 0)
         fail_msg("n = %u, %s: missing %u, extra %u, misordered %u, lost %u", scene->scene->n, where,
                  (unsigned)m.check.missing, (unsigned)m.check.extra, (unsigned)m.check.misordered,
                  (unsigned)m.lost);
