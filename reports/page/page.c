@@ -234,7 +234,7 @@ void page_add_notes(fm_text *page, const fm_result_files *results)
     add_note(page, results, is_noisy,
              "The machine was busy, or launches disagree: the column noisy of summary.csv says of "
              "each row why its times cannot be relied on.");
-    add_note(page, results, is_unstable, "Launches drew different pictures of the same case.");
+    add_note(page, results, is_unstable, "Timed frames drew different pictures of the same case.");
     add_note(page, results, is_empty,
              "Cases in which nothing was drawn: no fragment lies in their pictures. They are ok, "
              "for an empty picture is right, but their times are those of empty frames.");

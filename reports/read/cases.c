@@ -136,6 +136,9 @@ static fm_status read_cells(fm_case_row *result, const fm_table *table, size_t r
         result->metric[i] = result->low[i] = result->high[i] = NAN;
     for (size_t i = 0; i < FM_COLUMN_COUNT && status == FM_OK; i++)
         status = read_cell(result, &fm_columns[i], table, row, index[i], err);
+    /* Ends of one launch are of its frames: files of before have such. */
+    for (size_t i = 0; i < FM_METRIC_COUNT && !(result->metric[FM_METRIC_LAUNCHES] > 1); i++)
+        result->low[i] = result->high[i] = NAN;
     return status;
 }
 

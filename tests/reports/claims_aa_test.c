@@ -12,6 +12,7 @@ enum { PAIRS = 60, ROUNDS = 8, LAUNCHES_MOST = 10 };
 typedef struct aa_row {
     const char *method;
     int k, launches;
+    double scale; /* of its times */
     fm_interval frame_ms, times_floor;
 } aa_row;
 
@@ -51,28 +52,39 @@ static void add_row(fm_text *csv, const aa_row *row)
     }
 }
 
+/* What is drawn: pairs of names, of which the second takes `slower` times as long. */
+typedef struct aa_run {
+    const launch_noise *noise;
+    int launches;
+    const char *metric;
+    double slower;
+} aa_run;
+
 /* Launches of one case, and of a floor that is as noisy. */
-static void draw_row(aa_row *row, const launch_noise *noise, size_t index, uint64_t *state)
+static void draw_row(aa_row *row, const aa_run *run, size_t index, uint64_t *state)
 {
+    const launch_noise *noise = run->noise;
     double times[LAUNCHES_MOST], ratios[LAUNCHES_MOST];
     for (int i = 0; i < row->launches; i++) {
-        times[i] = launch_noise_draw(noise, index, state);
+        times[i] = row->scale * launch_noise_draw(noise, index, state);
         ratios[i] = times[i] / launch_noise_draw(noise, index, state);
     }
     row->frame_ms = stats_interval(times, (size_t)row->launches);
     row->times_floor = stats_interval(ratios, (size_t)row->launches);
 }
 
-static void write_results(const char *directory, const launch_noise *noise, int launches,
-                          uint64_t state)
+static void write_results(const char *directory, const aa_run *run, uint64_t state)
 {
     fm_text csv = { 0 };
     for (size_t i = 0; i < FM_COLUMN_COUNT; i++)
         text_add(&csv, "%s%s", column_name(&fm_columns[i]), i + 1 < FM_COLUMN_COUNT ? "," : "\n");
     for (int k = 1; k <= PAIRS; k++)
         for (int name = 0; name < 2; name++) {
-            aa_row row = { .method = name == 0 ? "a" : "b", .k = k, .launches = launches };
-            draw_row(&row, noise, (size_t)k % NOISE_CASES, &state);
+            aa_row row = { .method = name == 0 ? "a" : "b",
+                           .k = k,
+                           .launches = run->launches,
+                           .scale = name == 0 ? 1.0 : run->slower };
+            draw_row(&row, run, (size_t)k % NOISE_CASES, &state);
             add_row(&csv, &row);
         }
     kit_write_file(directory, "summary.csv", csv.bytes);
@@ -98,8 +110,7 @@ static void write_claims(const char *directory, const char *metric)
 }
 
 /* How many claims on one draw of all pairs are decided. */
-static size_t count_decided(const launch_noise *noise, int launches, const char *metric,
-                            uint64_t seed)
+static size_t count_decided(const aa_run *run, uint64_t seed)
 {
     char directory[64] = "/tmp/fragmark-aa-XXXXXX", path[96];
     fm_error err = { 0 };
@@ -107,8 +118,8 @@ static size_t count_decided(const launch_noise *noise, int launches, const char 
     fm_paper_figure *figure = NULL;
     fm_claim_results verdicts;
     assert_non_null(mkdtemp(directory));
-    write_results(directory, noise, launches, seed);
-    write_claims(directory, metric);
+    write_results(directory, run, seed);
+    write_claims(directory, run->metric);
     snprintf(path, sizeof path, "%s/f-1.yml", directory);
     if (paper_figure_read(&figure, path, &err) != FM_OK ||
         result_files_read(&results, directory, &err) != FM_OK)
@@ -125,11 +136,11 @@ static size_t count_decided(const launch_noise *noise, int launches, const char 
     return PAIRS - open;
 }
 
-static double decided(const launch_noise *noise, int launches, const char *metric)
+static double decided(const aa_run *run)
 {
     size_t count = 0;
     for (uint64_t seed = 1; seed <= ROUNDS; seed++)
-        count += count_decided(noise, launches, metric, seed);
+        count += count_decided(run, seed);
     return (double)count / (PAIRS * ROUNDS);
 }
 
@@ -144,7 +155,7 @@ static void two_names_of_one_method_are_told_apart_seldom(void **state)
     launch_noise_read(&noise);
     for (size_t i = 0; i < sizeof launches / sizeof launches[0]; i++)
         for (size_t j = 0; j < sizeof metrics / sizeof metrics[0]; j++) {
-            const double share = decided(&noise, launches[i], metrics[j]);
+            const double share = decided(&(aa_run){ &noise, launches[i], metrics[j], 1.0 });
             print_message("%d launches, %s: %.1f %% decided\n", launches[i], metrics[j],
                           100.0 * share);
             assert_true(share <= 0.07);
@@ -156,8 +167,19 @@ static void one_launch_tells_nothing_apart(void **state)
     launch_noise noise;
     (void)state;
     launch_noise_read(&noise);
-    assert_true(decided(&noise, 1, "frame_ms") == 0.0);
-    assert_true(decided(&noise, 1, "times_floor") == 0.0);
+    assert_true(decided(&(aa_run){ &noise, 1, "frame_ms", 1.0 }) == 0.0);
+    assert_true(decided(&(aa_run){ &noise, 1, "times_floor", 1.0 }) == 0.0);
+}
+
+/* A judge that never decides would pass the tests above. */
+static void a_method_that_takes_ten_times_as_long_is_told(void **state)
+{
+    launch_noise noise;
+    (void)state;
+    launch_noise_read(&noise);
+    assert_true(decided(&(aa_run){ &noise, 3, "frame_ms", 10.0 }) >= 0.95);
+    assert_true(decided(&(aa_run){ &noise, 5, "frame_ms", 10.0 }) >= 0.95);
+    assert_true(decided(&(aa_run){ &noise, 10, "frame_ms", 3.0 }) >= 0.95);
 }
 
 int main(void)
@@ -165,6 +187,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(two_names_of_one_method_are_told_apart_seldom),
         cmocka_unit_test(one_launch_tells_nothing_apart),
+        cmocka_unit_test(a_method_that_takes_ten_times_as_long_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
