@@ -34,3 +34,13 @@ void loss_count(fm_losses *losses, uint32_t traits, const fm_fragment *captured,
             add_missing(losses, traits, depth, end - first - survivors, survivors);
     }
 }
+
+bool loss_may_touch(uint32_t traits, const fm_fragment *truth, uint32_t wanted)
+{
+    if ((traits & FM_TRAIT_LOSES_DEPTH_ONE) != 0 && wanted > 0 && truth[wanted - 1].depth >= 1.0f)
+        return true;
+    for (uint32_t i = 1; (traits & FM_TRAIT_LOSES_TIES) != 0 && i < wanted; i++)
+        if (truth[i].depth <= truth[i - 1].depth)
+            return true;
+    return false;
+}

@@ -17,4 +17,7 @@ typedef struct fm_losses {
 void loss_count(fm_losses *losses, uint32_t traits, const fm_fragment *captured,
                 uint32_t captured_count, const fm_fragment *truth, uint32_t wanted);
 
+/* Whether a pixel's wanted fragments, nearest first, are such that the traits excuse a loss. */
+bool loss_may_touch(uint32_t traits, const fm_fragment *truth, uint32_t wanted);
+
 #endif

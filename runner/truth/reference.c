@@ -2,10 +2,12 @@
 
 #include <math.h>
 
+#include "loss.h"
+
 /* A pass over all pixels. */
 typedef struct pixel_walk {
     const fm_truth *truth;
-    fm_ties *ties;
+    fm_ties *ties, *all_ties; /* of the wanted, and of all fragments */
     uint32_t wanted;
 } pixel_walk;
 
@@ -16,7 +18,8 @@ static void find_range(fm_range *range, const pixel_walk *walk, uint64_t pixel, 
     const fm_fragment *fragments = &truth->fragments[truth->offsets[pixel]];
     const uint32_t count = (uint32_t)(truth->offsets[pixel + 1] - truth->offsets[pixel]);
     if (ties_are_open(fragments, count, wanted)) {
-        ties_range(range, walk->ties, fragments, count, wanted);
+        ties_range(range, wanted == UINT32_MAX ? walk->all_ties : walk->ties, fragments, count,
+                   wanted);
         return;
     }
     composite_pixel(range->low, fragments, wanted < count ? wanted : count);
@@ -35,7 +38,14 @@ static void forget_row(const pixel_walk *walk, uint64_t pixel)
 static fm_status begin(pixel_walk *walk, const fm_truth *truth, uint32_t wanted, fm_error *err)
 {
     *walk = (pixel_walk){ .truth = truth, .wanted = wanted };
-    return ties_create(&walk->ties, truth->n, err);
+    const fm_status status = ties_create(&walk->ties, truth->n, err);
+    return status == FM_OK ? ties_create(&walk->all_ties, truth->n, err) : status;
+}
+
+static void end(pixel_walk *walk)
+{
+    ties_destroy(walk->ties);
+    ties_destroy(walk->all_ties);
 }
 
 double range_distance(const fm_range *range, const float rgba[4])
@@ -97,7 +107,7 @@ fm_status reference_create(fm_reference *reference, const fm_truth *truth, uint3
         forget_row(&walk, i);
     }
     reference->truncation_rmse = sqrt(sum / (4.0 * (double)pixels));
-    ties_destroy(walk.ties);
+    end(&walk);
     return status;
 }
 
@@ -108,20 +118,35 @@ void reference_free(fm_reference *reference)
     *reference = (fm_reference){ 0 };
 }
 
-fm_status reference_distance(double *max_abs, const fm_truth *truth, uint32_t wanted,
-                             const fm_image *image, fm_error *err)
+/* The largest distance at one pixel of all images. */
+static double pixel_distance(const pixel_walk *walk, const reference_images *compared,
+                             uint64_t pixel)
 {
+    const uint64_t first = walk->truth->offsets[pixel];
+    const uint32_t count = (uint32_t)(walk->truth->offsets[pixel + 1] - first);
+    double largest = 0;
+    fm_range range;
+    if (loss_may_touch(compared->traits, &walk->truth->fragments[first],
+                       count < compared->wanted ? count : compared->wanted))
+        return 0;
+    find_range(&range, walk, pixel, compared->wanted);
+    for (size_t i = 0; i < compared->count; i++)
+        largest = fmax(largest, range_distance(&range, &compared->images[i]->rgba[4 * pixel]));
+    return largest;
+}
+
+fm_status reference_distance(double *max_abs, const reference_images *compared, fm_error *err)
+{
+    const fm_truth *truth = compared->truth;
     const uint64_t pixels = (uint64_t)truth->width_px * truth->height_px;
     pixel_walk walk;
-    const fm_status status = begin(&walk, truth, wanted, err);
+    const fm_status status = begin(&walk, truth, compared->wanted, err);
     *max_abs = 0;
     for (uint64_t i = 0; i < pixels && status == FM_OK; i++) {
-        fm_range range;
-        find_range(&range, &walk, i, wanted);
-        *max_abs = fmax(*max_abs, range_distance(&range, &image->rgba[4 * i]));
+        *max_abs = fmax(*max_abs, pixel_distance(&walk, compared, i));
         forget_row(&walk, i);
     }
-    ties_destroy(walk.ties);
+    end(&walk);
     return status;
 }
 

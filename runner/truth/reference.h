@@ -20,10 +20,18 @@ fm_status reference_create(fm_reference *reference, const fm_truth *truth, uint3
                            const fm_image *image, fm_error *err);
 void reference_free(fm_reference *reference);
 
-/* The largest distance of any channel of the image from what truth allows of the wanted fragments;
- * INFINITY: a channel is no number. */
-fm_status reference_distance(double *max_abs, const fm_truth *truth, uint32_t wanted,
-                             const fm_image *image, fm_error *err);
+/* Images of one case. */
+typedef struct reference_images {
+    const fm_truth *truth;
+    uint32_t wanted; /* as above */
+    uint32_t traits; /* FM_TRAIT_LOSES_*: pixels that these may touch are left out */
+    fm_image *const *images;
+    size_t count;
+} reference_images;
+
+/* The largest distance of any channel of any of the images from what truth allows of the wanted
+ * fragments; INFINITY: a channel is no number. FM_NO_MEMORY. */
+fm_status reference_distance(double *max_abs, const reference_images *compared, fm_error *err);
 
 /* The distance of one pixel's channels from a range: the largest; INFINITY as above. */
 double range_distance(const fm_range *range, const float rgba[4]);

@@ -35,8 +35,7 @@ typedef struct fm_measurement {
     uint64_t redone_ns;     /* of the passes of the frames that were thrown away for it */
     uint64_t frames_lossy;  /* run again on a software rasteriser, since a lock gave up */
     fm_image *image;        /* of the last timed frame; owned */
-    uint64_t image_hash;    /* its hash, made on the device */
-    uint64_t *image_hashes; /* [distinct_images], of all timed frames; owned */
+    uint64_t *image_hashes; /* [distinct_images], of all timed frames, by the device; owned */
     uint32_t distinct_images;
     /* Of an exact method where depths tie: the largest distance of any timed frame's image from
      * what truth allows (truth/reference.h). */

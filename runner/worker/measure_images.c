@@ -5,7 +5,8 @@
 #include "measure_internal.h"
 #include "truth/reference.h"
 
-enum { LOSSES = FM_TRAIT_LOSES_DEPTH_ONE | FM_TRAIT_LOSES_TIES };
+/* Of the images that wait. */
+#define KEPT_BYTES (256ull << 20)
 
 fm_status measure_read_image(fm_image **image, fm_stage *stage, fm_error *err)
 {
@@ -17,32 +18,38 @@ fm_status measure_read_image(fm_image **image, fm_stage *stage, fm_error *err)
                                                  0, (*image)->rgba, pixels * 16, err);
     for (uint64_t i = 0; i < pixels && status == FM_OK; i++)
         (*image)->rgba[4 * i + 3] = 1.0f - (*image)->rgba[4 * i + 3];
+    if (status != FM_OK) {
+        image_destroy(*image);
+        *image = NULL;
+    }
     return status;
 }
 
 void frame_images_begin(frame_images *images, fm_measurement *measurement,
                         const fm_measure_desc *desc)
 {
-    const uint32_t traits = desc->method->method->traits;
-    const bool is_exact = (traits & FM_TRAIT_EXACT) != 0;
-    measurement->may_differ = is_exact && truth_tied_pixels(desc->truth, UINT32_MAX) > 0;
-    /* With a declared loss an image is not what truth has, and yet not wrong. */
-    *images = (frame_images){ .desc = desc,
-                              .are_compared = measurement->may_differ && (traits & LOSSES) == 0 };
+    const fm_method_desc *method = desc->method->method;
+    const uint64_t bytes = (uint64_t)desc->truth->width_px * desc->truth->height_px * 16;
+    const uint64_t fit = KEPT_BYTES / bytes;
+    *images = (frame_images){ .desc = desc };
+    images->most = fit > FRAME_IMAGES_KEPT ? FRAME_IMAGES_KEPT : fit > 1 ? (uint32_t)fit : 1;
+    measurement->may_differ =
+        (method->traits & FM_TRAIT_EXACT) != 0 &&
+        truth_tied_pixels(desc->truth, measure_wanted(method, desc->method->settings->k)) > 0;
 }
 
 fm_status frame_images_settle(frame_images *images, fm_measurement *measurement, fm_error *err)
 {
-    fm_status status = FM_OK;
-    for (uint32_t i = 0; i < images->count; i++) {
-        double apart = 0;
-        if (status == FM_OK)
-            status = reference_distance(&apart, images->desc->truth,
-                                        measure_k(measurement, images->desc), images->kept[i], err);
-        measurement->frames_max_abs = fmax(measurement->frames_max_abs, apart);
-        image_destroy(images->kept[i]);
-    }
-    images->count = 0;
+    const fm_measure_desc *desc = images->desc;
+    const reference_images kept = { .truth = desc->truth,
+                                    .wanted = measure_k(measurement, desc),
+                                    .traits = desc->method->method->traits,
+                                    .images = images->kept,
+                                    .count = images->count };
+    double apart = 0;
+    const fm_status status = images->count > 0 ? reference_distance(&apart, &kept, err) : FM_OK;
+    measurement->frames_max_abs = fmax(measurement->frames_max_abs, apart);
+    frame_images_free(images);
     return status;
 }
 
@@ -57,13 +64,14 @@ static bool is_known(const fm_measurement *measurement, uint64_t hash)
 fm_status frame_images_add(frame_images *images, fm_measurement *measurement, fm_instance *method,
                            fm_error *err)
 {
-    fm_status status = instance_image_hash(&measurement->image_hash, method, err);
-    if (status != FM_OK || is_known(measurement, measurement->image_hash))
+    uint64_t hash;
+    fm_status status = instance_image_hash(&hash, method, err);
+    if (status != FM_OK || is_known(measurement, hash))
         return status;
-    measurement->image_hashes[measurement->distinct_images++] = measurement->image_hash;
-    if (!images->are_compared)
+    measurement->image_hashes[measurement->distinct_images++] = hash;
+    if (!measurement->may_differ)
         return FM_OK;
-    if (images->count == FRAME_IMAGES_KEPT)
+    if (images->count == images->most)
         status = frame_images_settle(images, measurement, err);
     if (status == FM_OK)
         status = measure_read_image(&images->kept[images->count], images->desc->method->stage, err);

@@ -21,8 +21,7 @@ enum { FRAME_IMAGES_KEPT = 16 };
 typedef struct frame_images {
     const fm_measure_desc *desc;
     fm_image *kept[FRAME_IMAGES_KEPT];
-    uint32_t count;
-    bool are_compared;
+    uint32_t count, most;
 } frame_images;
 
 void frame_images_begin(frame_images *images, fm_measurement *measurement,

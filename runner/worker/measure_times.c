@@ -95,12 +95,12 @@ static fm_status take_samples(fm_measurement *measurement, const launch_pair *pa
     fm_sample ignored;
     fm_status status = FM_OK;
     bool is_long = false;
+    frame_images_begin(&images, measurement, desc);
     for (uint32_t i = 0; i < desc->warmup && status == FM_OK && !is_long; i++) {
         status = sample_once(&ignored, measurement, pair, false, err);
         is_long = i > 0 && ignored.wall_ns > MEASURE_LONG_FRAME_NS;
     }
     measurement->lost = 0;
-    frame_images_begin(&images, measurement, desc);
     host_load_read(&measurement->begin, "");
     for (uint32_t i = 0; i < desc->frames && status == FM_OK; i++) {
         fm_sample *sample = &measurement->samples[i];

@@ -1,0 +1,102 @@
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "fragmark/method.h"
+#include "truth/reference.h"
+
+/* Half opaque red and green, premultiplied: 102 of 255. */
+enum { RED = 102 | 102u << 24, GREEN = 102 << 8 | 102u << 24 };
+
+/* Three pixels: a tie, one fragment at depth 1, nothing. */
+static const uint64_t offsets[] = { 0, 2, 3, 3 };
+static const fm_fragment fragments[] = { { 0.5f, RED }, { 0.5f, GREEN }, { 1.0f, RED } };
+static const fm_truth truth = { .width_px = 3,
+                                .height_px = 1,
+                                .n = 2,
+                                .fragment_count = 3,
+                                .nonempty_pixels = 2,
+                                .offsets = offsets,
+                                .fragments = fragments };
+
+static double distance(const float first[4], const float second[4], uint32_t traits)
+{
+    float rgba[12] = { 0 };
+    fm_image image = { 3, 1, rgba };
+    fm_image *const images[] = { &image };
+    const reference_images compared = {
+        .truth = &truth, .wanted = 2, .traits = traits, .images = images, .count = 1
+    };
+    double apart = -1;
+    for (int c = 0; c < 4; c++) {
+        rgba[c] = first[c];
+        rgba[4 + c] = second[c];
+    }
+    assert_int_equal(reference_distance(&apart, &compared, NULL), FM_OK);
+    return apart;
+}
+
+static const float red_first[] = { 0.4f, 0.24f, 0, 0.64f };
+static const float green_first[] = { 0.24f, 0.4f, 0, 0.64f };
+static const float red_twice[] = { 0.64f, 0, 0, 0.64f };
+static const float red[] = { 0.4f, 0, 0, 0.4f };
+static const float nothing[] = { 0, 0, 0, 0 };
+
+static void either_order_of_a_tie_is_right(void **state)
+{
+    (void)state;
+    assert_true(distance(red_first, red, 0) < 1e-6);
+    assert_true(distance(green_first, red, 0) < 1e-6);
+    assert_true(fabs(distance(red_twice, red, 0) - 0.24) < 1e-6);
+    assert_true(distance((float[4]){ NAN, 0, 0, 0 }, red, 0) >= (double)INFINITY);
+}
+
+static void a_declared_loss_is_left_out_and_nothing_else(void **state)
+{
+    (void)state;
+    assert_true(fabs(distance(red_first, nothing, 0) - 0.4) < 1e-6);
+    assert_true(distance(red_first, nothing, FM_TRAIT_LOSES_DEPTH_ONE) < 1e-6);
+    assert_true(fabs(distance(nothing, red, FM_TRAIT_LOSES_DEPTH_ONE) - 0.64) < 1e-6);
+    assert_true(distance(nothing, red, FM_TRAIT_LOSES_TIES) < 1e-6);
+}
+
+static void the_reference_is_the_nearest_picture(void **state)
+{
+    (void)state;
+    float rgba[12] = { 0.3f, 0.3f, 0, 0.64f, 1, 1, 1, 1 };
+    const fm_image image = { 3, 1, rgba };
+    fm_reference reference;
+    assert_int_equal(reference_create(&reference, &truth, UINT32_MAX, &image, NULL), FM_OK);
+    assert_true(fabs((double)reference.wanted->rgba[0] - 0.3) < 1e-6); /* within the interval */
+    assert_true(fabs((double)reference.wanted->rgba[4] - 0.4) < 1e-6);
+    assert_true(reference.truncation_rmse <= 0);
+    reference_free(&reference);
+    assert_int_equal(reference_create(&reference, &truth, 1, &image, NULL), FM_OK);
+    assert_true(fabs((double)reference.wanted->rgba[3] - 0.4) < 1e-6); /* one of the tied */
+    assert_true(fabs((double)reference.all->rgba[3] - 0.64) < 1e-6);
+    assert_true(reference.truncation_rmse > 0);
+    reference_free(&reference);
+}
+
+static void tied_pixels_hang_on_how_many_are_wanted(void **state)
+{
+    (void)state;
+    assert_int_equal(truth_tied_pixels(&truth, UINT32_MAX), 1);
+    assert_int_equal(truth_tied_pixels(&truth, 1), 1); /* either may be the first */
+    assert_int_equal(truth_tied_pixels(&truth, 0), 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(either_order_of_a_tie_is_right),
+        cmocka_unit_test(a_declared_loss_is_left_out_and_nothing_else),
+        cmocka_unit_test(the_reference_is_the_nearest_picture),
+        cmocka_unit_test(tied_pixels_hang_on_how_many_are_wanted),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
