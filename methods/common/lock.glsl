@@ -46,7 +46,7 @@ void fm_take(uvec2 pixel, float depth, uint colour)
             is_done = true;
         }
 #if FM_LOOP_LIMIT > 0
-        if (!is_mine && tries > 64u)
+        if (!is_mine && tries >= 64u)
             fm_wait(lock);
 #endif
     }

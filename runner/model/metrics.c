@@ -195,12 +195,22 @@ bool metric_find(fm_metric *metric, const char *name)
     return false;
 }
 
+/* What is before the ending of an interval's end is a metric. */
+static bool is_metric(const char *name, size_t length)
+{
+    for (int i = 0; i < FM_METRIC_COUNT; i++)
+        if (strlen(fm_metrics[i].name) == length && strncmp(fm_metrics[i].name, name, length) == 0)
+            return true;
+    return false;
+}
+
 static bool is_of_family(const fm_metric_family *family, const char *name)
 {
     const size_t prefix = strlen(family->prefix), suffix = strlen(family->suffix);
     const size_t length = strlen(name);
     return length > prefix + suffix && strncmp(name, family->prefix, prefix) == 0 &&
-           strcmp(name + length - suffix, family->suffix) == 0;
+           strcmp(name + length - suffix, family->suffix) == 0 &&
+           (prefix > 0 || is_metric(name, length - suffix));
 }
 
 const fm_metric_info *metric_describe(const char *name)

@@ -120,8 +120,8 @@ typedef struct fm_metric_info {
     fm_metric_of of;
     fm_better better;
     bool is_measured; /* it differs from run to run; else the same code gives the same value */
-    bool is_timed; /* it hangs on a clock, so that it needs an interval by launches; other numbers
-                      that are measured are counts, which fragments that race change little */
+    bool is_timed; /* it hangs on a clock, so that it needs an interval by launches. Other measured
+                      numbers are counts: races between fragments change them little. */
 } fm_metric_info;
 
 extern const fm_metric_info fm_metrics[FM_METRIC_COUNT];

@@ -244,14 +244,11 @@ static fm_status keep_image(fm_case_result *kept, const char *digits, fm_error *
     return FM_OK;
 }
 
-/* An answer without a list tells of its last frame alone. */
 static fm_status keep_images(fm_case_result *kept, const json_t *answer, fm_error *err)
 {
     size_t index;
     const json_t *hash;
     fm_status status = FM_OK;
-    if (answer_image_hash(answer)[0] != '\0')
-        status = keep_image(kept, answer_image_hash(answer), err);
     json_array_foreach(answer_image_hashes(answer), index, hash)
     {
         if (status == FM_OK)

@@ -154,7 +154,7 @@ static void add_metrics(json_t *answer, const fm_answer_desc *desc)
     }
     for (uint32_t i = 0; i < m->sample_count; i++)
         add_frame(samples, i, &m->samples[i], desc);
-    answer_set_image_hashes(answer, m->image_hash, m->image_hashes, m->distinct_images);
+    answer_set_image_hashes(answer, m->image_hashes, m->distinct_images);
     answer_set_measured(answer, metrics, samples);
 }
 

@@ -12,6 +12,8 @@
 #include "base/clock.h"
 #include "base/path.h"
 
+enum { GROUP_BYTES = 1024 };
+
 /* A number of a file's line: the index-th of those after `key`; NAN: it is not there. key "": of
  * the first line. */
 static double read_number(const char *path, const char *key, int index)
@@ -78,11 +80,38 @@ static double machine_cpu_s(const char *root)
     return ticks / (double)sysconf(_SC_CLK_TCK);
 }
 
-/* Control groups of version 2 count microseconds, those of version 1 nanoseconds. A process sees
- * its own group at the top, or is in the topmost one. */
+/* The control group of version 2 that the process is in, as a path that begins with '/'; empty:
+ * unknown. In a container it is the topmost one. */
+static void own_group(char group[GROUP_BYTES], const char *root)
+{
+    char path[FM_PATH_MAX_BYTES], line[GROUP_BYTES];
+    snprintf(path, sizeof path, "%s/proc/self/cgroup", root);
+    FILE *file = fopen(path, "r");
+    group[0] = '\0';
+    while (file != NULL && fgets(line, sizeof line, file) != NULL)
+        if (strncmp(line, "0::/", 4) == 0) {
+            line[strcspn(line, "\n")] = '\0';
+            strcpy(group, line + 3);
+        }
+    if (file != NULL)
+        fclose(file);
+}
+
+/* Control groups of version 2 count microseconds, those of version 1 nanoseconds. The limit may be
+ * that of any group from the process's own one up. */
 static double throttled_s(const char *root)
 {
-    const double us = number_in(root, "/sys/fs/cgroup/cpu.stat", "throttled_usec", 0);
+    char group[GROUP_BYTES], file[GROUP_BYTES + 32];
+    double us = NAN;
+    own_group(group, root);
+    for (bool is_top = false; !is_top;) {
+        char *slash = strrchr(group, '/');
+        snprintf(file, sizeof file, "/sys/fs/cgroup%s/cpu.stat", group);
+        us = fmax(us, number_in(root, file, "throttled_usec", 0)); /* NAN: the other one */
+        is_top = slash == NULL;
+        if (!is_top)
+            *slash = '\0';
+    }
     return isnan(us) ? number_in(root, "/sys/fs/cgroup/cpu/cpu.stat", "throttled_time", 0) * 1e-9
                      : us * 1e-6;
 }

@@ -169,19 +169,11 @@ void answer_set_truth_unusable(json_t *answer)
     json_object_set_new(answer, "is_truth_unusable", json_true());
 }
 
-void answer_set_image_hash(json_t *answer, uint64_t hash)
-{
-    char digits[17];
-    snprintf(digits, sizeof digits, "%016" PRIx64, hash);
-    json_object_set_new(answer, "image_hash", json_string(digits));
-}
-
-void answer_set_image_hashes(json_t *answer, uint64_t hash, const uint64_t *hashes, size_t count)
+void answer_set_image_hashes(json_t *answer, const uint64_t *hashes, size_t count)
 {
     json_t *list = json_array();
     for (size_t i = 0; i < count; i++)
         json_array_append_new(list, json_sprintf("%016" PRIx64, hashes[i]));
-    answer_set_image_hash(answer, hash);
     json_object_set_new(answer, "image_hashes", list);
 }
 
@@ -337,11 +329,6 @@ bool answer_is_truth_unusable(const json_t *answer)
 const char *answer_message(const json_t *answer)
 {
     return text_in(answer, "message");
-}
-
-const char *answer_image_hash(const json_t *answer)
-{
-    return text_in(answer, "image_hash");
 }
 
 json_t *answer_image_hashes(const json_t *answer)

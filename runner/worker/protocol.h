@@ -21,8 +21,7 @@
  *     "is_truth_unusable": false,           true, with is_runs_fault: the truth file is to be made
  * anew "device_name": "...", "device_driver": "...", "device_api": "...", "has_gpu_clock": false,
  * "is_software": true, "modelled": { "scene": [...], "passes": [...], "buffers": [...] },    names
- *     "image_hash": "16 hex digits",        of the last timed frame
- *     "image_hashes": ["16 hex digits"],    of all timed frames, each once
+ *     "image_hashes": ["16 hex digits"],    of all timed frames, each once; a sequence has one
  *     "mesh": { "file": "...", "told": "a sentence", "triangles": 12, ... },   what a scene's file
  *                                           held, not of launches without "check"
  *     "metrics": { "n": 128, ... },         one number a case, by its metric's name
@@ -91,8 +90,7 @@ void answer_set_verdict(json_t *answer, fm_case_status status, const char *messa
 void answer_set_runs_fault(json_t *answer, const char *message);
 /* Beside that: it was the truth file, which is damaged or cannot be read. */
 void answer_set_truth_unusable(json_t *answer);
-void answer_set_image_hash(json_t *answer, uint64_t hash);
-void answer_set_image_hashes(json_t *answer, uint64_t hash, const uint64_t *hashes, size_t count);
+void answer_set_image_hashes(json_t *answer, const uint64_t *hashes, size_t count);
 /* Takes the references. */
 void answer_set_measured(json_t *answer, json_t *metrics, json_t *samples);
 void answer_set_launch(json_t *answer, json_t *launch);
@@ -114,13 +112,12 @@ const char *answer_fault(const json_t *answer);
 fm_case_status answer_status(const json_t *answer);
 bool answer_is_runs_fault(const json_t *answer);
 bool answer_is_truth_unusable(const json_t *answer);
-const char *answer_message(const json_t *answer);    /* "": there is none */
-const char *answer_image_hash(const json_t *answer); /* the same */
-json_t *answer_image_hashes(const json_t *answer);   /* borrowed; NULL: none */
-json_t *answer_metrics(const json_t *answer);        /* the same */
-json_t *answer_modelled(const json_t *answer);       /* the same */
-json_t *answer_samples(const json_t *answer);        /* the same */
-json_t *answer_launch(const json_t *answer);         /* the same */
+const char *answer_message(const json_t *answer);  /* "": there is none */
+json_t *answer_image_hashes(const json_t *answer); /* borrowed; NULL: none */
+json_t *answer_metrics(const json_t *answer);      /* the same */
+json_t *answer_modelled(const json_t *answer);     /* the same */
+json_t *answer_samples(const json_t *answer);      /* the same */
+json_t *answer_launch(const json_t *answer);       /* the same */
 
 json_t *answer_mesh(const json_t *answer); /* the same */
 /* Of a mesh: the file, and a sentence that tells what was loaded; borrowed. */

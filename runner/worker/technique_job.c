@@ -102,7 +102,7 @@ static fm_status finish(json_t *answer, technique_run *run, fm_error *err)
         return status;
     technique_set_metrics(run);
     technique_set_errors(run);
-    answer_set_image_hash(answer, run->image_hash);
+    answer_set_image_hashes(answer, &run->image_hash, 1);
     answer_set_measured(answer, json_incref(run->metrics), json_incref(run->samples));
     technique_set_modelled(answer, run);
     return FM_OK;

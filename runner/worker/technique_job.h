@@ -1,7 +1,8 @@
 /* A launch whose feed is `frames`: a technique runs a whole sequence on the simulated GPU.
  *
- * The answer gets (protocol.h) image_hash of all frames; samples of each frame: frame.cycles,
- * frame.energy_nj, frame.tiles_skipped, frame.fragments_shaded, frame.wrong_tiles; and metrics.
+ * The answer gets (protocol.h) image_hashes: one, of all frames; samples of each frame:
+ * frame.cycles, frame.energy_nj, frame.tiles_skipped, frame.fragments_shaded, frame.wrong_tiles;
+ * and metrics.
  *
  * Metrics that are sums over all frames but the first, in which no technique has anything to go by:
  * every counter of simulator/counters.h by its name; fragments_generated; cycles, cycles.geometry,

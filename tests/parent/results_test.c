@@ -27,9 +27,9 @@ static json_t *result_of(const double *store_ms, const double *canary_ns)
                                                      all[j].metric, "value", all[j].value, "unit",
                                                      all[j].unit));
     }
-    return json_pack("{s:s, s:s, s:s, s:b, s:s, s:{s:I, s:s, s:I, s:I}, s:o}", "status", "ok",
+    return json_pack("{s:s, s:s, s:s, s:b, s:[s], s:{s:I, s:s, s:I, s:I}, s:o}", "status", "ok",
                      "message", "", "device_name", "card, \"big\"", "has_gpu_clock", 1,
-                     "image_hash", "00000000000000aa", "metrics", "fragments_generated",
+                     "image_hashes", "00000000000000aa", "metrics", "fragments_generated",
                      (json_int_t)1000, "psnr_db", "inf", "n", (json_int_t)4, "wrong_pixels",
                      (json_int_t)3, "samples", samples);
 }

@@ -15,7 +15,7 @@
 static const char worker_script[] =
     "#!/bin/sh\n"
     "here=$(dirname \"$0\")\n"
-    "good='{\"status\":\"ok\",\"message\":\"\",\"image_hash\":\"00000000000000aa\",'\n"
+    "good='{\"status\":\"ok\",\"message\":\"\",\"image_hashes\":[\"00000000000000aa\"],'\n"
     "good=$good'\"device_name\":\"fake\",\"metrics\":{\"rmse\":0.0,\"n\":4,\"tied_pixels\":0},"
     "\"samples\":['\n"
     "good=$good'{\"frame\":0,\"metric\":\"frame_ms\",\"value\":2.0,\"unit\":\"ms\"},'\n"

@@ -59,6 +59,21 @@ static void host_load_adds_up_threads_and_processors(void **state)
     assert_true(load.clock_share == 0.25);
 }
 
+static void host_load_finds_the_limit_of_any_group_above(void **state)
+{
+    (void)state;
+    char root[] = "/tmp/fragmark-load-XXXXXX";
+    fm_host_load load;
+    assert_non_null(mkdtemp(root));
+    put(root, "/proc/self/cgroup", "0::/user.slice/a.scope\n");
+    put(root, "/sys/fs/cgroup/cpu.stat", "usage_usec 9\n");
+    put(root, "/sys/fs/cgroup/user.slice/cpu.stat", "throttled_usec 2000000\n");
+    put(root, "/sys/fs/cgroup/user.slice/a.scope/cpu.stat", "throttled_usec 500000\n");
+    host_load_read(&load, root);
+    remove_folder(root);
+    assert_true(fabs(load.throttled_s - 2.0) < 1e-9);
+}
+
 static void host_load_reads_older_control_groups(void **state)
 {
     (void)state;
@@ -97,6 +112,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(host_load_adds_up_threads_and_processors),
+        cmocka_unit_test(host_load_finds_the_limit_of_any_group_above),
         cmocka_unit_test(host_load_reads_older_control_groups),
         cmocka_unit_test(host_load_does_not_know_what_the_system_does_not_tell),
         cmocka_unit_test(host_load_counts_the_work_of_this_process),
