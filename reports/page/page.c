@@ -61,8 +61,8 @@ static void add_trust(fm_text *page, const fm_result_files *results)
                  "cases are noisy, the first because ",
                  noisy, timed);
         html_add(page, first);
-        text_add(page, ". Their times cannot be relied on; measure again on a quiet machine, or "
-                       "with more launches.</p>\n");
+        text_add(page, ". Their times cannot be relied on: measure again on a quiet machine. More "
+                       "launches help only where launches differ.</p>\n");
     }
     if (single > 0)
         text_add(page,

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "cli.h"
+#include "model/feeds.h"
 
 static const struct argp argp = {
     .parser = cli_parse_spec,
@@ -105,6 +106,16 @@ static void tell_noise(FILE *talk, const fm_run_result *result)
     fputc('\n', talk);
 }
 
+/* Sequences of the simulated GPU have no times. */
+static bool is_timed_once(const fm_plan *plan)
+{
+    bool is_timed = false;
+    for (size_t i = 0; i < plan->count; i++)
+        is_timed = is_timed || (plan->cases[i].skip == NULL &&
+                                feed_from_name(plan->cases[i].feed) != FM_FEED_FRAMES);
+    return is_timed && plan->launches == 1;
+}
+
 static void sum_up(const fm_arguments *arguments, const fm_run_result *result,
                    const cli_run_desc *desc)
 {
@@ -120,6 +131,9 @@ static void sum_up(const fm_arguments *arguments, const fm_run_result *result,
     if (result->skipped > 0)
         fprintf(talk, ", %u not finished", result->skipped);
     fputc('\n', talk);
+    if (is_timed_once(desc->plan) && result->ok > 0)
+        fprintf(talk, "one launch: times have no interval, and decide no claim; "
+                      "three launches (-a launches=3) are the least that is of use\n");
     if (result->noisy > 0)
         tell_noise(talk, result);
     cli_reasons(talk, desc->directory);

@@ -55,7 +55,7 @@ const fm_metric_info fm_metrics[FM_METRIC_COUNT] = {
     [FM_METRIC_NONEMPTY_PIXELS] = { "nonempty_pixels", "covered pixels", "",
         "pixels with at least one fragment", CASE },
     [FM_METRIC_TRUTH_DIGEST] = { "truth_digest", "truth", "",
-        "hash of all fragments of the scene in their order, 16 hex digits: equal for equal truths", CASE },
+        "hash of all fragments of the scene in their order, a number of 48 bits: equal for equal truths", CASE },
     [FM_METRIC_DISCARDED_SHARE] = { "discarded_share", "discarded", "",
         "of the fragments beyond the k nearest, the share that was not stored", CASE, MORE, MEASURED },
     [FM_METRIC_TAKEN_PER_KEPT] = { "taken_per_kept", "taken per kept", "",
@@ -105,8 +105,8 @@ const fm_metric_info fm_metrics[FM_METRIC_COUNT] = {
         "images", CASE, MORE },
     [FM_METRIC_FLIP] = { "flip", "FLIP", "", "not computed yet: the column is empty", CASE, LESS },
     [FM_METRIC_TRUNCATION_RMSE] = { "truncation_rmse", "truncation", "",
-        "rmse of the k nearest fragments against all of them: what keeping only k costs, whatever the "
-        "method", CASE, LESS },
+        "rmse of the fragments that the method is to keep (the k nearest; the nearest; all: 0) against all "
+        "of them: what keeping only k costs, however well the method does it", CASE, LESS },
     [FM_METRIC_TOTAL_RMSE] = { "total_rmse", "total", "",
         "rmse of the image against the picture of all fragments", CASE, LESS },
     [FM_METRIC_DISTINCT_IMAGES] = { "distinct_images", "distinct images", "",

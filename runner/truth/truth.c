@@ -180,7 +180,7 @@ uint64_t truth_digest(const fm_truth *truth)
         const uint64_t count = left < BLOCK_FRAGMENTS ? left : BLOCK_FRAGMENTS;
         digest = XXH64(&truth->fragments[i], count * sizeof truth->fragments[0], digest);
     }
-    return digest;
+    return digest >> 16;
 }
 
 static uint64_t kept_of(const fm_truth *truth, uint64_t pixel, uint32_t k)

@@ -32,7 +32,8 @@ void truth_close(fm_truth *truth);
  * a truth may be larger than memory. */
 void truth_forget(const fm_truth *truth, uint64_t first, uint64_t last);
 
-/* xxhash64 of which fragments each pixel has, in their order: equal for equal truths. */
+/* Hash of which fragments each pixel has, in their order: equal for equal truths. 48 bits, so that
+ * it is a number to every reader of CSV. */
 uint64_t truth_digest(const fm_truth *truth);
 
 /* Sum over pixels of min(f, k). */

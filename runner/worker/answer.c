@@ -19,12 +19,6 @@ void answer_set_number(json_t *metrics, fm_metric metric, double value)
                                                      : "-inf"));
 }
 
-void answer_set_hash(json_t *metrics, fm_metric metric, uint64_t hash)
-{
-    json_object_set_new(metrics, fm_metrics[metric].name,
-                        json_sprintf("%016llx", (unsigned long long)hash));
-}
-
 void answer_set_count(json_t *metrics, fm_metric metric, uint64_t value)
 {
     json_object_set_new(metrics, fm_metrics[metric].name, json_integer((json_int_t)value));
@@ -121,7 +115,7 @@ static void add_checked(json_t *metrics, const fm_measurement *m, const fm_truth
     answer_set_count(metrics, FM_METRIC_DEPTH_ULP_MAX, m->check.depth_ulp_max);
     answer_set_count(metrics, FM_METRIC_WRONG_PIXELS, m->check.wrong_pixels);
     answer_set_count(metrics, FM_METRIC_NONEMPTY_PIXELS, truth->nonempty_pixels);
-    answer_set_hash(metrics, FM_METRIC_TRUTH_DIGEST, truth_digest(truth));
+    answer_set_count(metrics, FM_METRIC_TRUTH_DIGEST, truth_digest(truth));
     answer_set_count(metrics, FM_METRIC_TIED_PIXELS, m->tied_pixels);
     answer_set_number(metrics, FM_METRIC_SELF_MAX_ABS, m->self_max_abs);
     answer_set_number(metrics, FM_METRIC_RMSE, m->error.rmse);

@@ -20,7 +20,6 @@ typedef struct fm_answer_desc {
 /* One number of a case: metrics is the answer's object of that name. What is not finite travels as
  * a text, for JSON has no such numbers. */
 void answer_set_number(json_t *metrics, fm_metric metric, double value);
-void answer_set_hash(json_t *metrics, fm_metric metric, uint64_t hash); /* 16 hex digits */
 void answer_set_count(json_t *metrics, fm_metric metric, uint64_t value);
 /* One number of a frame: samples is the answer's list of that name. */
 void answer_add_sample(json_t *samples, uint32_t frame, fm_metric metric, double value);

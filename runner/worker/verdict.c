@@ -44,14 +44,14 @@ bool verdict_is_wrong(fm_error *err, const fm_measurement *measurement, uint32_t
 
 bool verdict_frames_are_wrong(fm_error *err, const fm_technique_outcome *outcome, uint32_t traits)
 {
-    if ((traits & FM_TRAIT_EXACT) == 0 || outcome->wrong_tiles == 0)
+    const bool is_exact = (traits & FM_TRAIT_EXACT) != 0;
+    if (outcome->wrong_tiles == 0)
         return false;
     fm_fail(err, FM_OK,
-            "declared exact, but %" PRIu64 " tiles in %u of %u frames are not the baseline's, "
-            "the first in frame %u",
-            outcome->wrong_tiles, outcome->wrong_frames, outcome->frames,
-            outcome->first_wrong_frame);
-    return true;
+            "%s%" PRIu64 " tiles in %u of %u frames are not the baseline's, the first in frame %u",
+            is_exact ? "declared exact, but " : "", outcome->wrong_tiles, outcome->wrong_frames,
+            outcome->frames, outcome->first_wrong_frame);
+    return is_exact;
 }
 
 bool verdict_loss(char text[VERDICT_LOSS_BYTES], const fm_check *check)

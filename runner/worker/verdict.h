@@ -14,7 +14,7 @@ enum { VERDICT_LOSS_BYTES = 128 };
  * Why it is wrong goes to *err, whose status is FM_OK. */
 bool verdict_is_wrong(fm_error *err, const fm_measurement *measurement, uint32_t traits,
                       uint32_t n);
-/* The same of a technique's sequence. */
+/* The same of a technique's sequence; *err also tells of wrong tiles that are no fault. */
 bool verdict_frames_are_wrong(fm_error *err, const fm_technique_outcome *outcome, uint32_t traits);
 /* "declared loss: 3 fragments at depth 1, 2 of equal depths"; false: none was lost. */
 bool verdict_loss(char text[VERDICT_LOSS_BYTES], const fm_check *check);
