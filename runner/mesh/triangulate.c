@@ -3,10 +3,15 @@
 #include <float.h>
 #include <stdlib.h>
 
+#include "orient.h"
+
 /* Of products of two lengths that were rounded a few times. */
 static const double rounding = 4 * DBL_EPSILON;
-/* How far corners of a flat polygon may lie off its plane, of its size: what files round. */
+/* How far corners of a flat polygon may lie off its plane, of the power of two above its size: what
+ * files round. */
 static const double planar_max = 1e-3;
+/* Seen coordinates below this are 0: so small a part of the polygon's size is no shape. */
+static const double seen_min = 0x1p-400;
 
 bool triangulator_reserve(fm_triangulator *t, size_t count)
 {
@@ -63,18 +68,22 @@ bool triangle_has_area(vec3 a, vec3 b, vec3 c)
     return largest(cross(ab, ac)) > rounding;
 }
 
-/* Corners relative to the first one, the farthest at distance 1; false: all are one point. */
+/* Corners relative to the first one, the farthest at 1/2 to 1; false: all are one point. A power of
+ * two keeps on a line what is on a line. */
 static bool normalise(fm_triangulator *t, size_t count)
 {
     const vec3 first = t->corners[0];
     double size = 0.0;
+    int exponent;
     for (size_t i = 0; i < count; i++) {
         t->corners[i] = half_edge(first, t->corners[i]);
         size = fmax(size, largest(t->corners[i]));
     }
-    for (size_t i = 0; i < count && size > 0.0; i++) {
+    frexp(size, &exponent);
+    for (size_t i = 0; i < count; i++) {
         const vec3 p = t->corners[i];
-        t->corners[i] = (vec3){ p.x / size, p.y / size, p.z / size };
+        t->corners[i] =
+            (vec3){ ldexp(p.x, -exponent), ldexp(p.y, -exponent), ldexp(p.z, -exponent) };
     }
     return size > 0.0;
 }
@@ -101,16 +110,15 @@ static void flatten(fm_triangulator *t, size_t count, vec3 normal)
     const int u = (axis + (n[axis] > 0.0 ? 1 : 2)) % 3, v = (axis + (n[axis] > 0.0 ? 2 : 1)) % 3;
     for (size_t i = 0; i < count; i++) {
         const double p[3] = { t->corners[i].x, t->corners[i].y, t->corners[i].z };
-        t->flat[i][0] = p[u];
-        t->flat[i][1] = p[v];
+        t->flat[i][0] = fabs(p[u]) < seen_min ? 0.0 : p[u];
+        t->flat[i][1] = fabs(p[v]) < seen_min ? 0.0 : p[v];
     }
 }
 
 /* Above 0: c lies to the left of the line from a to b. */
 static double turn(const fm_triangulator *t, uint32_t a, uint32_t b, uint32_t c)
 {
-    const double *p = t->flat[a], *q = t->flat[b], *r = t->flat[c];
-    return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+    return orient(t->flat[a], t->flat[b], t->flat[c]);
 }
 
 static void emit(fm_triangulator *t, uint32_t a, uint32_t b, uint32_t c)
