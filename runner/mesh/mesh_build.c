@@ -56,6 +56,8 @@ static fm_status check_corner(const mesh_work *work, size_t face, const fm_corne
 
 static fm_status fail_cut(const mesh_work *work, fm_cut cut, size_t face, size_t count)
 {
+    if (cut == FM_CUT_NO_MEMORY)
+        return no_memory(work);
     if (cut == FM_CUT_TOO_LARGE)
         return fm_fail(work->err, FM_INVALID,
                        "%s: face %zu has %zu corners and is not convex: such faces have %d at most",

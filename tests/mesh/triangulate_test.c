@@ -8,6 +8,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <time.h>
 
 #include "mesh/orient.h"
 #include "mesh/triangulate.h"
@@ -100,6 +101,16 @@ static void holes_on_bridges_stay_open(void **state)
     const vec3 ring[] = { { 0, 0, 0 }, { 4, 0, 0 }, { 4, 4, 0 }, { 0, 4, 0 }, { 0, 0, 0 },
                           { 1, 1, 0 }, { 1, 3, 0 }, { 3, 3, 0 }, { 3, 1, 0 }, { 1, 1, 0 } };
     assert_covers(ring, COUNT(ring), 0, 12.0);
+}
+
+/* A border that goes along cracks, there and back, and touches itself at their ends. */
+static void cracks_lose_no_area(void **state)
+{
+    (void)state;
+    const vec3 cracked[] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 1, 2, 0 }, { 1, 1, 0 },
+                             { 2, 1, 0 }, { 1, 1, 0 }, { 1, 0, 0 }, { 3, 0, 0 }, { 3, 1, 0 },
+                             { 2, 1, 0 }, { 3, 1, 0 }, { 3, 3, 0 }, { 0, 3, 0 } };
+    assert_covers(cracked, COUNT(cracked), 0, 9.0);
 }
 
 static void corners_on_edges_lose_no_area(void **state)
@@ -286,6 +297,26 @@ static void warped_quads_are_cut_from_the_first_corner(void **state)
     assert_cut(mild, COUNT(mild), FM_CUT);
 }
 
+/* Zigzags have few ears at a time. The time of a try for each pair of corners is legal, that of
+ * each three is a minute. */
+static void time_grows_with_the_square_at_most(void **state)
+{
+    enum { ZIGZAG = 4096, BACK = 120000 };
+    static vec3 corners[BACK];
+    const clock_t start = clock();
+    (void)state;
+    for (int i = 0; i < ZIGZAG / 2; i++) {
+        corners[i] = (vec3){ i, i % 2 != 0 ? 10 : 1, 0 };
+        corners[ZIGZAG - 1 - i] = (vec3){ i, i % 2 != 0 ? 9.5 : 0.5, 0 };
+    }
+    assert_cut(corners, ZIGZAG, FM_CUT);
+    for (int i = 0; i < BACK / 2; i++)
+        corners[i] = corners[(BACK - i) % BACK] = (vec3){ i, (double)i * i, 0 };
+    corners[BACK / 2] = (vec3){ BACK, 1, 0 };
+    assert_cut(corners, BACK, FM_CUT_NO_AREA);
+    assert_true((double)(clock() - start) < 10.0 * CLOCKS_PER_SEC);
+}
+
 /* Convex ones have no limit. */
 static void only_large_concave_polygons_are_refused(void **state)
 {
@@ -307,6 +338,7 @@ int main(void)
         cmocka_unit_test(concave_polygons_keep_their_notch),
         cmocka_unit_test(combs_are_covered_whatever_the_first_corner),
         cmocka_unit_test(holes_on_bridges_stay_open),
+        cmocka_unit_test(cracks_lose_no_area),
         cmocka_unit_test(corners_on_edges_lose_no_area),
         cmocka_unit_test(sides_of_lines_are_exact),
         cmocka_unit_test(straight_corners_stay_straight),
@@ -315,6 +347,7 @@ int main(void)
         cmocka_unit_test(what_has_no_area_has_no_triangles),
         cmocka_unit_test(borders_that_cross_are_refused),
         cmocka_unit_test(warped_quads_are_cut_from_the_first_corner),
+        cmocka_unit_test(time_grows_with_the_square_at_most),
         cmocka_unit_test(only_large_concave_polygons_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
