@@ -17,6 +17,7 @@ typedef struct assimp_state {
     fm_polygons *polygons;
     const struct aiScene *file;
     const char *path;
+    uint64_t face; /* how many were met */
     fm_error *err;
 } assimp_state;
 
@@ -123,7 +124,7 @@ static fm_status add_face(assimp_state *state, const struct aiFace *face, const 
             polygons_corner(state->polygons, position + index,
                             mesh->mNormals == NULL ? FM_NO_NORMAL : normal + index, state->err);
     }
-    return status == FM_OK ? polygons_end_face(state->polygons, state->err) : status;
+    return status == FM_OK ? polygons_end_face(state->polygons, state->face++, state->err) : status;
 }
 
 static bool is_default_material(const assimp_state *state, unsigned index)
@@ -178,10 +179,11 @@ fm_status assimp_read(fm_polygons *polygons, const char *path, fm_error *err)
     if (status != FM_OK)
         return status;
     const struct aiScene *file = aiImportFile(path, 0);
-    assimp_state state = { polygons, file, path, err };
+    assimp_state state = { .polygons = polygons, .file = file, .path = path, .err = err };
     if (file == NULL)
         return fm_fail(err, FM_INVALID, "%s: %s", path, aiGetErrorString());
     polygons->is_single = true;
+    polygons->element = "face of all meshes";
     if ((file->mFlags & AI_SCENE_FLAGS_INCOMPLETE) != 0 || file->mRootNode == NULL)
         status = fm_fail(err, FM_INVALID, "%s: incomplete", path);
     else

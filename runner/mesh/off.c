@@ -120,6 +120,7 @@ static fm_status read_face(off_state *state, uint64_t number)
     fm_status status = FM_OK;
     if (!scan_word_on(&word, &state->scan))
         return ends_early(state, "face", number, state->faces);
+    const uint64_t line = state->scan.line;
     if (!word_integer(&corners, word) || corners < 0)
         return scan_fail(&state->scan, state->err, "face %" PRIu64 ": '%.*s' corners", number,
                          WORD_TEXT(word));
@@ -134,7 +135,7 @@ static fm_status read_face(off_state *state, uint64_t number)
     }
     if (status == FM_OK && skip_rest(state) > 0)
         polygons_ignore(state->polygons, FM_MESH_FACE_COLOURS);
-    return status == FM_OK ? polygons_end_face(state->polygons, state->err) : status;
+    return status == FM_OK ? polygons_end_face(state->polygons, line, state->err) : status;
 }
 
 fm_status off_read(fm_polygons *polygons, const fm_file_bytes *file, fm_error *err)

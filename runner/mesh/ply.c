@@ -16,6 +16,7 @@ typedef struct ply_state {
     fm_polygons *polygons;
     const ply_element *element; /* the one that is read */
     uint64_t number;            /* which of them */
+    uint64_t origin;            /* the same, or in text the line that it begins on */
     double vertex[PLY_NORMAL_X + 3];
     fm_error *err;
 } ply_state;
@@ -109,7 +110,7 @@ static fm_status add_strip_triangle(ply_state *state, const uint32_t corners[3],
         status = add_corner(state, corners[is_turned ? 0 : 1]);
     if (status == FM_OK)
         status = add_corner(state, corners[2]);
-    return status == FM_OK ? polygons_end_face(state->polygons, state->err) : status;
+    return status == FM_OK ? polygons_end_face(state->polygons, state->origin, state->err) : status;
 }
 
 static bool has_twins(const uint32_t corners[3])
@@ -149,7 +150,7 @@ static fm_status read_corners(ply_state *state, ply_type type, uint64_t count)
         if (status == FM_OK)
             status = add_corner(state, (uint32_t)index);
     }
-    return status == FM_OK ? polygons_end_face(state->polygons, state->err) : status;
+    return status == FM_OK ? polygons_end_face(state->polygons, state->origin, state->err) : status;
 }
 
 static fm_status read_list(ply_state *state, const ply_property *property)
@@ -192,6 +193,7 @@ static fm_status read_one(ply_state *state, bool has_normals)
     const bool is_text = state->format == PLY_ASCII;
     if (is_text && !scan_line(&state->scan))
         return fail_at(state, "the file ends: is it cut off?");
+    state->origin = is_text ? state->scan.line : state->number;
     fm_status status = read_properties(state);
     if (status == FM_OK && is_text && scan_word(&word, &state->scan))
         status = fail_at(state, "more values than the head declares");
@@ -215,6 +217,15 @@ static void note_element(fm_polygons *polygons, const ply_element *element)
         polygons->facts.lines += element->count;
 }
 
+/* Bytes have no lines. */
+static void note_origin(ply_state *state, ply_kind kind)
+{
+    const char *name = kind == PLY_FACE ? "face" : "tristrips";
+    if (state->format == PLY_ASCII || (kind != PLY_FACE && kind != PLY_STRIPS))
+        return;
+    state->polygons->element = state->polygons->face_count > 0 ? "face or tristrips" : name;
+}
+
 static fm_status read_elements(ply_state *state, const ply_element *element)
 {
     const bool has_normals = element->kind == PLY_VERTEX && ply_has(element, PLY_NORMAL_X) &&
@@ -222,6 +233,7 @@ static fm_status read_elements(ply_state *state, const ply_element *element)
                              ply_has(element, PLY_NORMAL_X + 2);
     fm_status status = FM_OK;
     note_element(state->polygons, element);
+    note_origin(state, element->kind);
     state->element = element;
     if (element->property_count == 0) /* nothing stands in the body */
         return FM_OK;

@@ -29,8 +29,10 @@ static fm_status add_corner(fm_polygons *polygons, const double at[3], fm_error 
     return polygons_corner(polygons, (uint32_t)(polygons->position_count - 1), FM_NO_NORMAL, err);
 }
 
-static fm_status read_binary_facet(fm_polygons *polygons, const char *facet, fm_error *err)
+static fm_status read_binary_facet(fm_polygons *polygons, const char *bytes, uint32_t number,
+                                   fm_error *err)
 {
+    const char *facet = bytes + STL_HEAD_BYTES + (size_t)number * STL_FACET_BYTES;
     fm_status status = FM_OK;
     for (size_t corner = 0; corner < 3 && status == FM_OK; corner++) {
         double at[3];
@@ -40,7 +42,7 @@ static fm_status read_binary_facet(fm_polygons *polygons, const char *facet, fm_
     }
     if (facet[STL_ATTRIBUTE_AT] != 0 || facet[STL_ATTRIBUTE_AT + 1] != 0)
         polygons_ignore(polygons, FM_MESH_FACE_COLOURS);
-    return status == FM_OK ? polygons_end_face(polygons, err) : status;
+    return status == FM_OK ? polygons_end_face(polygons, number, err) : status;
 }
 
 static uint64_t binary_bytes(const fm_file_bytes *file)
@@ -60,9 +62,9 @@ static fm_status read_binary(fm_polygons *polygons, const fm_file_bytes *file, f
                        "%s: %" PRIu32 " triangles need %" PRIu64
                        " bytes, the file has %zu: is it cut off?",
                        file->path, facets, binary_bytes(file), file->count);
+    polygons->element = "facet";
     for (uint32_t i = 0; i < facets && status == FM_OK; i++)
-        status = read_binary_facet(polygons,
-                                   file->bytes + STL_HEAD_BYTES + (size_t)i * STL_FACET_BYTES, err);
+        status = read_binary_facet(polygons, file->bytes, i, err);
     if (file->count > binary_bytes(file))
         polygons_ignore(polygons, FM_MESH_TRAILING);
     polygons->facts.parts = 1;
@@ -84,6 +86,7 @@ static fm_status read_facet(fm_polygons *polygons, fm_scan *scan, fm_error *err)
 {
     fm_word word;
     double at[3];
+    const uint64_t line = scan->line;
     scan->at = scan->line_end; /* the normal */
     fm_status status = expect(scan, "outer", err);
     if (status == FM_OK)
@@ -97,7 +100,7 @@ static fm_status read_facet(fm_polygons *polygons, fm_scan *scan, fm_error *err)
         status = scan_fail(scan, err, "a facet has no 'endloop': is the file cut off?");
     if (status == FM_OK)
         status = expect(scan, "endfacet", err);
-    return status == FM_OK ? polygons_end_face(polygons, err) : status;
+    return status == FM_OK ? polygons_end_face(polygons, line, err) : status;
 }
 
 /* Behind `solid`, to its `endsolid`. */

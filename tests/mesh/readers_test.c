@@ -127,7 +127,7 @@ static void ply_strips_are_read(void **state)
     assert_loads(".ply", STRIP_HEAD "6 0 1 2 3 4 5\n", 4, 2.0);
     assert_loads(".ply", STRIP_HEAD "7 0 1 2 -1 2 3 4\n", 2, 1.0);
     assert_loads(".ply", STRIP_HEAD "8 0 1 2 2 3 3 4 5\n", 2, 1.0);
-    assert_refused(".ply", STRIP_HEAD "3 0 1 6\n", "face 0: vertex 6 of 6");
+    assert_refused(".ply", STRIP_HEAD "3 0 1 6\n", ":17: a face: vertex 6 of 6");
     assert_refused(".ply", STRIP_HEAD "3 0 1 -2\n", "tristrips 0: an index that is no vertex's");
 }
 
