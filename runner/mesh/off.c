@@ -1,4 +1,5 @@
 /* Geomview's OFF, as text. */
+#include <ctype.h>
 #include <inttypes.h>
 #include <string.h>
 
@@ -20,6 +21,17 @@ static fm_status ends_early(off_state *state, const char *what, uint64_t number,
                      what, number, count);
 }
 
+/* Some writers put no space between the kind and the first count: "OFF490 518 0". */
+static fm_word without_count(off_state *state, fm_word word)
+{
+    enum { KIND_BYTES = 3 };
+    if (word.length > KIND_BYTES && isdigit((unsigned char)word.bytes[KIND_BYTES])) {
+        state->scan.at = word.bytes + KIND_BYTES;
+        word.length = KIND_BYTES;
+    }
+    return word;
+}
+
 /* [ST][C][N][4][n]OFF [BINARY]. A file may begin with its counts at once. */
 static fm_status read_kind(off_state *state, fm_word word)
 {
@@ -33,7 +45,7 @@ static fm_status read_kind(off_state *state, fm_word word)
         state->has_normals = state->has_normals || i == 2;
         left = (fm_word){ left.bytes + length, left.length - length };
     }
-    if (!word_is(left, "OFF"))
+    if (!word_is(without_count(state, left), "OFF"))
         return scan_fail(&state->scan, state->err, "'%.*s': an OFF of this kind is not read",
                          WORD_TEXT(word));
     return FM_OK;
