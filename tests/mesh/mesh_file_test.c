@@ -192,6 +192,32 @@ static void instances_and_strips_of_gltf_are_read(void **state)
     assert_true(facts.box.high[2] >= 2.0);
 }
 
+/* 4097 nodes on one mesh of 32 769 vertices, all zero. */
+static void small_files_of_many_vertices_are_refused(void **state)
+{
+    enum { NODES = 4097, VERTICES = 32769, LETTERS = VERTICES * 16 };
+    static char letters[LETTERS + 1];
+    fm_text text = { 0 };
+    (void)state;
+    memset(letters, 'A', LETTERS);
+    text_add(&text, "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"nodes\":[");
+    for (int i = 0; i < NODES; i++)
+        text_add(&text, "%s{\"mesh\":0}", i > 0 ? "," : "");
+    text_add(&text, "],\"scenes\":[{\"nodes\":[0");
+    for (int i = 1; i < NODES; i++)
+        text_add(&text, ",%d", i);
+    text_add(
+        &text,
+        "]}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"accessors\":[{"
+        "\"bufferView\":0,\"componentType\":5126,\"count\":%d,\"type\":\"VEC3\"}],"
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":%d}],\"buffers\":[{\"byteLength\":%d,"
+        "\"uri\":\"data:application/octet-stream;base64,",
+        VERTICES, VERTICES * 12, VERTICES * 12);
+    text_add(&text, "%s\"}]}", letters);
+    assert_refused(".gltf", text.bytes, "more than 134217728 vertices or faces");
+    text_free(&text);
+}
+
 /* assimp rounds to floats before anybody can move the mesh. */
 static void coarse_floats_are_told_or_refused(void **state)
 {
@@ -265,6 +291,7 @@ int main(void)
         cmocka_unit_test(facets_are_flat_and_other_meshes_smooth),
         cmocka_unit_test(other_formats_are_treated_alike),
         cmocka_unit_test(instances_and_strips_of_gltf_are_read),
+        cmocka_unit_test(small_files_of_many_vertices_are_refused),
         cmocka_unit_test(coarse_floats_are_told_or_refused),
         cmocka_unit_test(cut_files_of_other_formats_are_refused),
         cmocka_unit_test(only_regular_files_of_known_endings_are_read),
