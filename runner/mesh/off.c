@@ -9,7 +9,7 @@ typedef struct off_state {
     fm_scan scan;
     fm_polygons *polygons;
     uint64_t vertices, faces; /* declared */
-    bool has_colours, has_normals;
+    bool has_normals;
     fm_error *err;
 } off_state;
 
@@ -41,7 +41,6 @@ static fm_status read_kind(off_state *state, fm_word word)
         const size_t length = strlen(prefixes[i]);
         if (left.length <= length || memcmp(left.bytes, prefixes[i], length) != 0)
             continue;
-        state->has_colours = state->has_colours || i == 1;
         state->has_normals = state->has_normals || i == 2;
         left = (fm_word){ left.bytes + length, left.length - length };
     }
