@@ -14,6 +14,7 @@ typedef struct ply_state {
     fm_scan scan;
     ply_format format;
     fm_polygons *polygons;
+    bool has_normals;           /* all vertices have */
     const ply_element *element; /* the one that is read */
     uint64_t number;            /* which of them */
     uint64_t origin;            /* the same, or in text the line that it begins on */
@@ -98,8 +99,8 @@ static fm_status read_index(int64_t *index, ply_state *state, ply_type type)
 
 static fm_status add_corner(ply_state *state, uint32_t index)
 {
-    return polygons_corner(state->polygons, index,
-                           state->polygons->normal_count > 0 ? index : FM_NO_NORMAL, state->err);
+    return polygons_corner(state->polygons, index, state->has_normals ? index : FM_NO_NORMAL,
+                           state->err);
 }
 
 /* Every second triangle is turned about, so that all have one orientation. */
@@ -187,7 +188,7 @@ static fm_status read_properties(ply_state *state)
     return status;
 }
 
-static fm_status read_one(ply_state *state, bool has_normals)
+static fm_status read_one(ply_state *state)
 {
     fm_word word;
     const bool is_text = state->format == PLY_ASCII;
@@ -199,7 +200,7 @@ static fm_status read_one(ply_state *state, bool has_normals)
         status = fail_at(state, "more values than the head declares");
     if (status == FM_OK && state->element->kind == PLY_VERTEX)
         status = polygons_position(state->polygons, &state->vertex[PLY_X], state->err);
-    if (status == FM_OK && has_normals)
+    if (status == FM_OK && state->has_normals && state->element->kind == PLY_VERTEX)
         status = polygons_normal(state->polygons, &state->vertex[PLY_NORMAL_X], state->err);
     return status;
 }
@@ -228,9 +229,6 @@ static void note_origin(ply_state *state, ply_kind kind)
 
 static fm_status read_elements(ply_state *state, const ply_element *element)
 {
-    const bool has_normals = element->kind == PLY_VERTEX && ply_has(element, PLY_NORMAL_X) &&
-                             ply_has(element, PLY_NORMAL_X + 1) &&
-                             ply_has(element, PLY_NORMAL_X + 2);
     fm_status status = FM_OK;
     note_element(state->polygons, element);
     note_origin(state, element->kind);
@@ -238,8 +236,19 @@ static fm_status read_elements(ply_state *state, const ply_element *element)
     if (element->property_count == 0) /* nothing stands in the body */
         return FM_OK;
     for (state->number = 0; state->number < element->count && status == FM_OK; state->number++)
-        status = read_one(state, has_normals);
+        status = read_one(state);
     return status;
+}
+
+/* Faces may stand before the vertices. */
+static bool all_have_normals(const ply_head *head)
+{
+    for (size_t i = 0; i < head->element_count; i++)
+        for (int axis = 0; axis < 3; axis++)
+            if (head->elements[i].kind == PLY_VERTEX &&
+                !ply_has(&head->elements[i], (ply_role)(PLY_NORMAL_X + axis)))
+                return false;
+    return true;
 }
 
 static bool has_more(ply_state *state)
@@ -258,8 +267,10 @@ fm_status ply_read(fm_polygons *polygons, const fm_file_bytes *file, fm_error *e
     fm_status status = scan_open(&state.scan, file, err);
     if (status == FM_OK)
         status = ply_head_read(head, &state.scan, err);
-    if (status == FM_OK)
+    if (status == FM_OK) {
         state.format = head->format;
+        state.has_normals = all_have_normals(head);
+    }
     for (size_t i = 0; status == FM_OK && i < head->element_count; i++)
         status = read_elements(&state, &head->elements[i]);
     if (status == FM_OK && has_more(&state))

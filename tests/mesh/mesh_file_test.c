@@ -142,6 +142,12 @@ static void facets_are_flat_and_other_meshes_smooth(void **state)
     assert_true(fabs(mesh.normals[0].z - 1.0) < rounding);
     assert_true(fabs(mesh.normals[3].y + 1.0) < rounding);
     mesh_free(&mesh);
+    load(&mesh, ".ply",
+         PLY("ascii") FACES(1) XYZ(3) "property float nx\nproperty float ny\nproperty float "
+                                      "nz\n" END
+                                      "3 0 1 2\n0 0 0 1 0 0\n1 0 0 1 0 0\n0 1 0 1 0 0\n");
+    assert_true(mesh.normals[0].x > 0.9);
+    mesh_free(&mesh);
     load(&mesh, ".obj", CORNERS "v 0 0 1\nv 1 0 0\nf 1 2 3\nf 1 5 4\n");
     assert_int_equal(mesh.vertex_count, 4); /* the second (1 0 0) is the first */
     mesh_free(&mesh);
