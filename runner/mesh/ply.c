@@ -17,6 +17,7 @@ typedef struct ply_state {
     bool has_normals;           /* all vertices have */
     const ply_element *element; /* the one that is read */
     uint64_t number;            /* which of them */
+    bool shares_lines;          /* an element began on the line of another */
     uint64_t origin;            /* the same, or in text the line that it begins on */
     double vertex[PLY_NORMAL_X + 3];
     fm_error *err;
@@ -71,7 +72,9 @@ static fm_status read_value(double *value, ply_state *state, ply_type type)
     const size_t count = type_bytes[type];
     if (state->format == PLY_ASCII) {
         if (!scan_word(&word, scan))
-            return fail_at(state, "a value is missing: is the file cut off?");
+            return fail_at(state, state->shares_lines
+                                      ? "a value is missing, or a line has more than is declared"
+                                      : "a value is missing: is the file cut off?");
         return word_real(value, scan, word) ? FM_OK : fail_at(state, "not a number");
     }
     if ((size_t)(scan->end - scan->next) < count)
@@ -188,16 +191,22 @@ static fm_status read_properties(ply_state *state)
     return status;
 }
 
+/* A line holds whole elements, in most files one. */
+static bool begin_element(ply_state *state)
+{
+    if (!scan_has_word(&state->scan))
+        return scan_line(&state->scan);
+    state->shares_lines = true;
+    return true;
+}
+
 static fm_status read_one(ply_state *state)
 {
-    fm_word word;
     const bool is_text = state->format == PLY_ASCII;
-    if (is_text && !scan_line(&state->scan))
+    if (is_text && !begin_element(state))
         return fail_at(state, "the file ends: is it cut off?");
     state->origin = is_text ? state->scan.line : state->number;
     fm_status status = read_properties(state);
-    if (status == FM_OK && is_text && scan_word(&word, &state->scan))
-        status = fail_at(state, "more values than the head declares");
     if (status == FM_OK && state->element->kind == PLY_VERTEX)
         status = polygons_position(state->polygons, &state->vertex[PLY_X], state->err);
     if (status == FM_OK && state->has_normals && state->element->kind == PLY_VERTEX)
@@ -235,8 +244,10 @@ static fm_status read_elements(ply_state *state, const ply_element *element)
     state->element = element;
     if (element->property_count == 0) /* nothing stands in the body */
         return FM_OK;
-    for (state->number = 0; state->number < element->count && status == FM_OK; state->number++)
+    for (uint64_t i = 0; i < element->count && status == FM_OK; i++) {
+        state->number = i;
         status = read_one(state);
+    }
     return status;
 }
 
@@ -251,11 +262,19 @@ static bool all_have_normals(const ply_head *head)
     return true;
 }
 
-static bool has_more(ply_state *state)
+/* Lines behind the last element are left out. What is left of lines with several elements may be
+ * values of each that the head does not declare: then all of them were read wrong. */
+static fm_status check_end(ply_state *state)
 {
-    if (state->format == PLY_ASCII)
-        return scan_line(&state->scan);
-    return state->scan.next < state->scan.end;
+    fm_scan *scan = &state->scan;
+    const bool is_text = state->format == PLY_ASCII,
+               is_within_line = is_text && scan_has_word(scan);
+    const bool has_more = is_within_line || (is_text ? scan_line(scan) : scan->next < scan->end);
+    if (has_more && (is_within_line || state->shares_lines))
+        return fail_at(state, "more values than the head declares");
+    if (has_more)
+        polygons_ignore(state->polygons, FM_MESH_TRAILING);
+    return FM_OK;
 }
 
 fm_status ply_read(fm_polygons *polygons, const fm_file_bytes *file, fm_error *err)
@@ -269,12 +288,13 @@ fm_status ply_read(fm_polygons *polygons, const fm_file_bytes *file, fm_error *e
         status = ply_head_read(head, &state.scan, err);
     if (status == FM_OK) {
         state.format = head->format;
+        state.scan.at = state.scan.line_end; /* of end_header */
         state.has_normals = all_have_normals(head);
     }
     for (size_t i = 0; status == FM_OK && i < head->element_count; i++)
         status = read_elements(&state, &head->elements[i]);
-    if (status == FM_OK && has_more(&state))
-        polygons_ignore(polygons, FM_MESH_TRAILING);
+    if (status == FM_OK)
+        status = check_end(&state);
     polygons->facts.parts = 1;
     scan_close(&state.scan);
     free(head);

@@ -222,6 +222,21 @@ static void ply_says_what_it_leaves_out(void **state)
     assert_true(ignores(&facts, FM_MESH_UNKNOWN));
 }
 
+/* But what a line has beyond the head does not become the next element. */
+static void ply_lines_hold_whole_elements(void **state)
+{
+    (void)state;
+#define LINES PLY("ascii") XYZ(3) FACES(1) END
+    assert_loads(".ply", LINES "0 0 0 1 0 0\n0 1 0\n3 0 1 2\n", 1, HALF);
+    assert_loads(".ply", LINES "0 0 0 1 0 0 0 1 0 3 0 1 2\n", 1, HALF);
+    assert_refused(".ply", LINES "0 0 0 9\n1 0 0 9\n0 1 0 9\n3 0 1 2\n",
+                   ":11: vertex 1: a value is missing, or a line has more than is declared");
+    assert_refused(".ply", PLY("ascii") XYZ(2) FACES(1) END "0 0 0 1 0 0\n3 0 0 1\n3 0 0 1\n",
+                   ":13: face 0: more values than the head declares");
+    assert_refused(".ply", LINES "0 0\n0 1 0 0\n0 1 0\n3 0 1 2\n",
+                   ":11: vertex 0: a value is missing");
+}
+
 static void ply_is_refused_with_its_element(void **state)
 {
     (void)state;
@@ -317,6 +332,7 @@ int main(void)
         cmocka_unit_test(ply_strips_turn_one_way),
         cmocka_unit_test(ply_is_read_in_both_byte_orders),
         cmocka_unit_test(ply_says_what_it_leaves_out),
+        cmocka_unit_test(ply_lines_hold_whole_elements),
         cmocka_unit_test(ply_is_refused_with_its_element),
         cmocka_unit_test(stl_is_read_in_all_its_spellings),
         cmocka_unit_test(binary_stl_is_measured),
