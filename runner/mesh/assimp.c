@@ -3,6 +3,7 @@
 #include <assimp/cimport.h>
 #include <assimp/material.h>
 #include <assimp/scene.h>
+#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -17,10 +18,13 @@ typedef struct assimp_state {
     fm_polygons *polygons;
     const struct aiScene *file;
     const char *path;
+    uint64_t face; /* how many were met */
     fm_error *err;
 } assimp_state;
 
 enum { NODE_DEPTH_MAX = 1000, HEAD_BYTES = 12 };
+/* Vertices and faces as they are placed, each: some GiB. A small file can ask for any number. */
+static const uint64_t placed_max = UINT64_C(1) << 27;
 
 bool assimp_knows(const char *ending)
 {
@@ -123,7 +127,7 @@ static fm_status add_face(assimp_state *state, const struct aiFace *face, const 
             polygons_corner(state->polygons, position + index,
                             mesh->mNormals == NULL ? FM_NO_NORMAL : normal + index, state->err);
     }
-    return status == FM_OK ? polygons_end_face(state->polygons, state->err) : status;
+    return status == FM_OK ? polygons_end_face(state->polygons, state->face++, state->err) : status;
 }
 
 static bool is_default_material(const assimp_state *state, unsigned index)
@@ -151,11 +155,27 @@ static fm_status add_mesh(assimp_state *state, const struct aiMesh *mesh, const 
     return status;
 }
 
-/* A mesh that several nodes name is there several times. */
-static fm_status add_node(assimp_state *state, const struct aiNode *node, const affine *above,
-                          int depth)
+typedef struct placed_counts {
+    uint64_t vertices, faces;
+} placed_counts;
+
+static fm_status count_mesh(placed_counts *placed, const assimp_state *state,
+                            const struct aiMesh *mesh)
 {
-    const affine own = of_node(&node->mTransformation), to_world = product(above, &own);
+    placed->vertices += mesh->mNumVertices;
+    placed->faces += mesh->mNumFaces;
+    if (placed->vertices > placed_max || placed->faces > placed_max)
+        return fm_fail(state->err, FM_INVALID,
+                       "%s: its nodes place its meshes so often that there are more than %" PRIu64
+                       " vertices or faces: no more are read",
+                       state->path, placed_max);
+    return FM_OK;
+}
+
+/* Before a vertex is placed: checks what nodes name, how deep they lie, and how much they place. */
+static fm_status check_node(placed_counts *placed, const assimp_state *state,
+                            const struct aiNode *node, int depth)
+{
     fm_status status = FM_OK;
     if (depth > NODE_DEPTH_MAX)
         return fm_fail(state->err, FM_INVALID, "%s: nodes lie more than %d deep", state->path,
@@ -164,10 +184,22 @@ static fm_status add_node(assimp_state *state, const struct aiNode *node, const 
         if (node->mMeshes[i] >= state->file->mNumMeshes)
             return fm_fail(state->err, FM_INVALID, "%s: node '%s': mesh %u of %u", state->path,
                            node->mName.data, node->mMeshes[i], state->file->mNumMeshes);
-        status = add_mesh(state, state->file->mMeshes[node->mMeshes[i]], &to_world);
+        status = count_mesh(placed, state, state->file->mMeshes[node->mMeshes[i]]);
     }
     for (unsigned i = 0; i < node->mNumChildren && status == FM_OK; i++)
-        status = add_node(state, node->mChildren[i], &to_world, depth + 1);
+        status = check_node(placed, state, node->mChildren[i], depth + 1);
+    return status;
+}
+
+/* A mesh that several nodes name is there several times. */
+static fm_status add_node(assimp_state *state, const struct aiNode *node, const affine *above)
+{
+    const affine own = of_node(&node->mTransformation), to_world = product(above, &own);
+    fm_status status = FM_OK;
+    for (unsigned i = 0; i < node->mNumMeshes && status == FM_OK; i++)
+        status = add_mesh(state, state->file->mMeshes[node->mMeshes[i]], &to_world);
+    for (unsigned i = 0; i < node->mNumChildren && status == FM_OK; i++)
+        status = add_node(state, node->mChildren[i], &to_world);
     return status;
 }
 
@@ -178,14 +210,18 @@ fm_status assimp_read(fm_polygons *polygons, const char *path, fm_error *err)
     if (status != FM_OK)
         return status;
     const struct aiScene *file = aiImportFile(path, 0);
-    assimp_state state = { polygons, file, path, err };
+    assimp_state state = { .polygons = polygons, .file = file, .path = path, .err = err };
+    placed_counts placed = { 0 };
     if (file == NULL)
         return fm_fail(err, FM_INVALID, "%s: %s", path, aiGetErrorString());
     polygons->is_single = true;
+    polygons->element = "face of all meshes";
     if ((file->mFlags & AI_SCENE_FLAGS_INCOMPLETE) != 0 || file->mRootNode == NULL)
         status = fm_fail(err, FM_INVALID, "%s: incomplete", path);
     else
-        status = add_node(&state, file->mRootNode, &identity, 0);
+        status = check_node(&placed, &state, file->mRootNode, 0);
+    if (status == FM_OK)
+        status = add_node(&state, file->mRootNode, &identity);
     aiReleaseImport(file);
     return status;
 }

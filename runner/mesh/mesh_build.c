@@ -3,6 +3,8 @@
 #include <assert.h>
 #include <inttypes.h>
 #include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -38,31 +40,48 @@ static bool is_finite(const double triple[3])
     return isfinite(triple[0]) && isfinite(triple[1]) && isfinite(triple[2]);
 }
 
+/* "a.obj:7: a face: ..." or "a.stl: facet 3, from 0: ..." */
+__attribute__((format(printf, 3, 4))) static fm_status fail_face(const mesh_work *work, size_t face,
+                                                                 const char *format, ...)
+{
+    const fm_polygons *polygons = work->polygons;
+    char reason[256];
+    va_list values;
+    va_start(values, format);
+    vsnprintf(reason, sizeof reason, format, values);
+    va_end(values);
+    if (polygons->element == NULL)
+        return fm_fail(work->err, FM_INVALID, "%s:%" PRIu64 ": a face: %s", work->path,
+                       polygons->origins[face], reason);
+    return fm_fail(work->err, FM_INVALID, "%s: %s %" PRIu64 ", from 0: %s", work->path,
+                   polygons->element, polygons->origins[face], reason);
+}
+
 static fm_status check_corner(const mesh_work *work, size_t face, const fm_corner *corner)
 {
     const fm_polygons *polygons = work->polygons;
     if (corner->position >= polygons->position_count)
-        return fm_fail(work->err, FM_INVALID, "%s: face %zu: vertex %" PRIu32 " of %zu", work->path,
-                       face, corner->position, polygons->position_count);
+        return fail_face(work, face, "vertex %" PRIu32 " of %zu", corner->position,
+                         polygons->position_count);
     if (corner->normal != FM_NO_NORMAL && corner->normal >= polygons->normal_count)
-        return fm_fail(work->err, FM_INVALID, "%s: face %zu: normal %" PRIu32 " of %zu", work->path,
-                       face, corner->normal, polygons->normal_count);
+        return fail_face(work, face, "normal %" PRIu32 " of %zu", corner->normal,
+                         polygons->normal_count);
     if (!is_finite(polygons->positions[corner->position]))
-        return fm_fail(work->err, FM_INVALID,
-                       "%s: face %zu: a coordinate of vertex %" PRIu32 " is not finite", work->path,
-                       face, corner->position);
+        return fail_face(work, face, "a coordinate of vertex %" PRIu32 " is not finite",
+                         corner->position);
     return FM_OK;
 }
 
 static fm_status fail_cut(const mesh_work *work, fm_cut cut, size_t face, size_t count)
 {
+    if (cut == FM_CUT_NO_MEMORY)
+        return no_memory(work);
     if (cut == FM_CUT_TOO_LARGE)
-        return fm_fail(work->err, FM_INVALID,
-                       "%s: face %zu has %zu corners and is not convex: such faces have %d at most",
-                       work->path, face, count, POLYGON_CONCAVE_MAX);
-    return fm_fail(work->err, FM_INVALID,
-                   "%s: face %zu, of %zu corners, crosses itself: what it covers is not said",
-                   work->path, face, count);
+        return fail_face(work, face,
+                         "it has %zu corners and is not convex: such faces have %d at most", count,
+                         POLYGON_CONCAVE_MAX);
+    return fail_face(work, face, "of %zu corners, it crosses itself: what it covers is not said",
+                     count);
 }
 
 static fm_status cut_face(mesh_work *work, size_t face, size_t first, size_t count)

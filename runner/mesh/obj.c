@@ -112,7 +112,8 @@ static fm_status read_face(obj_state *state)
         state->is_part_open = true;
         state->polygons->facts.parts++;
     }
-    return status == FM_OK ? polygons_end_face(state->polygons, state->err) : status;
+    return status == FM_OK ? polygons_end_face(state->polygons, state->scan.line, state->err)
+                           : status;
 }
 
 static fm_status skip_texture_coordinate(obj_state *state)

@@ -1,4 +1,5 @@
 /* Geomview's OFF, as text. */
+#include <ctype.h>
 #include <inttypes.h>
 #include <string.h>
 
@@ -8,7 +9,7 @@ typedef struct off_state {
     fm_scan scan;
     fm_polygons *polygons;
     uint64_t vertices, faces; /* declared */
-    bool has_colours, has_normals;
+    bool has_normals;
     fm_error *err;
 } off_state;
 
@@ -20,6 +21,17 @@ static fm_status ends_early(off_state *state, const char *what, uint64_t number,
                      what, number, count);
 }
 
+/* Some writers put no space between the kind and the first count: "OFF490 518 0". */
+static fm_word without_count(off_state *state, fm_word word)
+{
+    enum { KIND_BYTES = 3 };
+    if (word.length > KIND_BYTES && isdigit((unsigned char)word.bytes[KIND_BYTES])) {
+        state->scan.at = word.bytes + KIND_BYTES;
+        word.length = KIND_BYTES;
+    }
+    return word;
+}
+
 /* [ST][C][N][4][n]OFF [BINARY]. A file may begin with its counts at once. */
 static fm_status read_kind(off_state *state, fm_word word)
 {
@@ -29,11 +41,10 @@ static fm_status read_kind(off_state *state, fm_word word)
         const size_t length = strlen(prefixes[i]);
         if (left.length <= length || memcmp(left.bytes, prefixes[i], length) != 0)
             continue;
-        state->has_colours = state->has_colours || i == 1;
         state->has_normals = state->has_normals || i == 2;
         left = (fm_word){ left.bytes + length, left.length - length };
     }
-    if (!word_is(left, "OFF"))
+    if (!word_is(without_count(state, left), "OFF"))
         return scan_fail(&state->scan, state->err, "'%.*s': an OFF of this kind is not read",
                          WORD_TEXT(word));
     return FM_OK;
@@ -120,6 +131,7 @@ static fm_status read_face(off_state *state, uint64_t number)
     fm_status status = FM_OK;
     if (!scan_word_on(&word, &state->scan))
         return ends_early(state, "face", number, state->faces);
+    const uint64_t line = state->scan.line;
     if (!word_integer(&corners, word) || corners < 0)
         return scan_fail(&state->scan, state->err, "face %" PRIu64 ": '%.*s' corners", number,
                          WORD_TEXT(word));
@@ -134,7 +146,7 @@ static fm_status read_face(off_state *state, uint64_t number)
     }
     if (status == FM_OK && skip_rest(state) > 0)
         polygons_ignore(state->polygons, FM_MESH_FACE_COLOURS);
-    return status == FM_OK ? polygons_end_face(state->polygons, state->err) : status;
+    return status == FM_OK ? polygons_end_face(state->polygons, line, state->err) : status;
 }
 
 fm_status off_read(fm_polygons *polygons, const fm_file_bytes *file, fm_error *err)

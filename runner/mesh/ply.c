@@ -14,8 +14,11 @@ typedef struct ply_state {
     fm_scan scan;
     ply_format format;
     fm_polygons *polygons;
+    bool has_normals;           /* all vertices have */
     const ply_element *element; /* the one that is read */
     uint64_t number;            /* which of them */
+    bool shares_lines;          /* an element began on the line of another */
+    uint64_t origin;            /* the same, or in text the line that it begins on */
     double vertex[PLY_NORMAL_X + 3];
     fm_error *err;
 } ply_state;
@@ -69,7 +72,9 @@ static fm_status read_value(double *value, ply_state *state, ply_type type)
     const size_t count = type_bytes[type];
     if (state->format == PLY_ASCII) {
         if (!scan_word(&word, scan))
-            return fail_at(state, "a value is missing: is the file cut off?");
+            return fail_at(state, state->shares_lines
+                                      ? "a value is missing, or a line has more than is declared"
+                                      : "a value is missing: is the file cut off?");
         return word_real(value, scan, word) ? FM_OK : fail_at(state, "not a number");
     }
     if ((size_t)(scan->end - scan->next) < count)
@@ -97,8 +102,8 @@ static fm_status read_index(int64_t *index, ply_state *state, ply_type type)
 
 static fm_status add_corner(ply_state *state, uint32_t index)
 {
-    return polygons_corner(state->polygons, index,
-                           state->polygons->normal_count > 0 ? index : FM_NO_NORMAL, state->err);
+    return polygons_corner(state->polygons, index, state->has_normals ? index : FM_NO_NORMAL,
+                           state->err);
 }
 
 /* Every second triangle is turned about, so that all have one orientation. */
@@ -109,7 +114,7 @@ static fm_status add_strip_triangle(ply_state *state, const uint32_t corners[3],
         status = add_corner(state, corners[is_turned ? 0 : 1]);
     if (status == FM_OK)
         status = add_corner(state, corners[2]);
-    return status == FM_OK ? polygons_end_face(state->polygons, state->err) : status;
+    return status == FM_OK ? polygons_end_face(state->polygons, state->origin, state->err) : status;
 }
 
 static bool has_twins(const uint32_t corners[3])
@@ -149,7 +154,7 @@ static fm_status read_corners(ply_state *state, ply_type type, uint64_t count)
         if (status == FM_OK)
             status = add_corner(state, (uint32_t)index);
     }
-    return status == FM_OK ? polygons_end_face(state->polygons, state->err) : status;
+    return status == FM_OK ? polygons_end_face(state->polygons, state->origin, state->err) : status;
 }
 
 static fm_status read_list(ply_state *state, const ply_property *property)
@@ -186,18 +191,25 @@ static fm_status read_properties(ply_state *state)
     return status;
 }
 
-static fm_status read_one(ply_state *state, bool has_normals)
+/* A line holds whole elements, in most files one. */
+static bool begin_element(ply_state *state)
 {
-    fm_word word;
+    if (!scan_has_word(&state->scan))
+        return scan_line(&state->scan);
+    state->shares_lines = true;
+    return true;
+}
+
+static fm_status read_one(ply_state *state)
+{
     const bool is_text = state->format == PLY_ASCII;
-    if (is_text && !scan_line(&state->scan))
+    if (is_text && !begin_element(state))
         return fail_at(state, "the file ends: is it cut off?");
+    state->origin = is_text ? state->scan.line : state->number;
     fm_status status = read_properties(state);
-    if (status == FM_OK && is_text && scan_word(&word, &state->scan))
-        status = fail_at(state, "more values than the head declares");
     if (status == FM_OK && state->element->kind == PLY_VERTEX)
         status = polygons_position(state->polygons, &state->vertex[PLY_X], state->err);
-    if (status == FM_OK && has_normals)
+    if (status == FM_OK && state->has_normals && state->element->kind == PLY_VERTEX)
         status = polygons_normal(state->polygons, &state->vertex[PLY_NORMAL_X], state->err);
     return status;
 }
@@ -215,26 +227,54 @@ static void note_element(fm_polygons *polygons, const ply_element *element)
         polygons->facts.lines += element->count;
 }
 
+/* Bytes have no lines. */
+static void note_origin(ply_state *state, ply_kind kind)
+{
+    const char *name = kind == PLY_FACE ? "face" : "tristrips";
+    if (state->format == PLY_ASCII || (kind != PLY_FACE && kind != PLY_STRIPS))
+        return;
+    state->polygons->element = state->polygons->face_count > 0 ? "face or tristrips" : name;
+}
+
 static fm_status read_elements(ply_state *state, const ply_element *element)
 {
-    const bool has_normals = element->kind == PLY_VERTEX && ply_has(element, PLY_NORMAL_X) &&
-                             ply_has(element, PLY_NORMAL_X + 1) &&
-                             ply_has(element, PLY_NORMAL_X + 2);
     fm_status status = FM_OK;
     note_element(state->polygons, element);
+    note_origin(state, element->kind);
     state->element = element;
     if (element->property_count == 0) /* nothing stands in the body */
         return FM_OK;
-    for (state->number = 0; state->number < element->count && status == FM_OK; state->number++)
-        status = read_one(state, has_normals);
+    for (uint64_t i = 0; i < element->count && status == FM_OK; i++) {
+        state->number = i;
+        status = read_one(state);
+    }
     return status;
 }
 
-static bool has_more(ply_state *state)
+/* Faces may stand before the vertices. */
+static bool all_have_normals(const ply_head *head)
 {
-    if (state->format == PLY_ASCII)
-        return scan_line(&state->scan);
-    return state->scan.next < state->scan.end;
+    for (size_t i = 0; i < head->element_count; i++)
+        for (int axis = 0; axis < 3; axis++)
+            if (head->elements[i].kind == PLY_VERTEX &&
+                !ply_has(&head->elements[i], (ply_role)(PLY_NORMAL_X + axis)))
+                return false;
+    return true;
+}
+
+/* Lines behind the last element are left out. What is left of lines with several elements may be
+ * values of each that the head does not declare: then all of them were read wrong. */
+static fm_status check_end(ply_state *state)
+{
+    fm_scan *scan = &state->scan;
+    const bool is_text = state->format == PLY_ASCII,
+               is_within_line = is_text && scan_has_word(scan);
+    const bool has_more = is_within_line || (is_text ? scan_line(scan) : scan->next < scan->end);
+    if (has_more && (is_within_line || state->shares_lines))
+        return fail_at(state, "more values than the head declares");
+    if (has_more)
+        polygons_ignore(state->polygons, FM_MESH_TRAILING);
+    return FM_OK;
 }
 
 fm_status ply_read(fm_polygons *polygons, const fm_file_bytes *file, fm_error *err)
@@ -246,12 +286,15 @@ fm_status ply_read(fm_polygons *polygons, const fm_file_bytes *file, fm_error *e
     fm_status status = scan_open(&state.scan, file, err);
     if (status == FM_OK)
         status = ply_head_read(head, &state.scan, err);
-    if (status == FM_OK)
+    if (status == FM_OK) {
         state.format = head->format;
+        state.scan.at = state.scan.line_end; /* of end_header */
+        state.has_normals = all_have_normals(head);
+    }
     for (size_t i = 0; status == FM_OK && i < head->element_count; i++)
         status = read_elements(&state, &head->elements[i]);
-    if (status == FM_OK && has_more(&state))
-        polygons_ignore(polygons, FM_MESH_TRAILING);
+    if (status == FM_OK)
+        status = check_end(&state);
     polygons->facts.parts = 1;
     scan_close(&state.scan);
     free(head);

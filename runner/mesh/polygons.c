@@ -57,7 +57,7 @@ fm_status polygons_corner(fm_polygons *polygons, uint32_t position, uint32_t nor
     return status;
 }
 
-fm_status polygons_end_face(fm_polygons *polygons, fm_error *err)
+fm_status polygons_end_face(fm_polygons *polygons, uint64_t origin, fm_error *err)
 {
     const size_t first = polygons->face_count > 0 ? polygons->ends[polygons->face_count - 1] : 0;
     const size_t corners = polygons->corner_count - first;
@@ -68,13 +68,19 @@ fm_status polygons_end_face(fm_polygons *polygons, fm_error *err)
         polygons->facts.without_area += corners == 0;
         return FM_OK;
     }
-    void *grown = polygons->ends;
-    const fm_status status =
-        grow(&grown, &polygons->face_room, polygons->face_count, sizeof polygons->ends[0], err);
-    polygons->ends = grown;
+    void *ends = polygons->ends, *origins = polygons->origins;
+    fm_status status =
+        grow(&ends, &polygons->face_room, polygons->face_count, sizeof polygons->ends[0], err);
+    polygons->ends = ends;
     if (status == FM_OK)
-        polygons->ends[polygons->face_count++] = polygons->corner_count;
-    return status;
+        status = grow(&origins, &polygons->origin_room, polygons->face_count,
+                      sizeof polygons->origins[0], err);
+    polygons->origins = origins;
+    if (status != FM_OK)
+        return status;
+    polygons->origins[polygons->face_count] = origin;
+    polygons->ends[polygons->face_count++] = polygons->corner_count;
+    return FM_OK;
 }
 
 void polygons_ignore(fm_polygons *polygons, fm_mesh_ignored what)
@@ -88,5 +94,6 @@ void polygons_free(fm_polygons *polygons)
     free(polygons->normals);
     free(polygons->corners);
     free(polygons->ends);
+    free(polygons->origins);
     *polygons = (fm_polygons){ 0 };
 }

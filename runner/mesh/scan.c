@@ -145,15 +145,28 @@ fm_status scan_fail(const fm_scan *scan, fm_error *err, const char *format, ...)
     return fm_fail(err, FM_INVALID, "%s:%" PRIu64 ": %s", scan->path, scan->line, reason);
 }
 
-fm_status scan_reals(double *values, int count, fm_scan *scan, const char *what, fm_error *err)
+typedef bool next_word(fm_word *word, fm_scan *scan);
+
+static fm_status take_reals(double *values, int count, fm_scan *scan, next_word *next,
+                            const char *what, fm_error *err)
 {
     fm_word word;
     for (int i = 0; i < count; i++) {
-        if (!scan_word(&word, scan))
+        if (!next(&word, scan))
             return scan_fail(scan, err, "%s of %d numbers, not %d%s", what, i, count,
                              scan_is_open_line(scan) ? ": is the file cut off?" : "");
         if (!word_real(&values[i], scan, word))
             return scan_fail(scan, err, "%s: '%.*s' is not a number", what, WORD_TEXT(word));
     }
     return FM_OK;
+}
+
+fm_status scan_reals(double *values, int count, fm_scan *scan, const char *what, fm_error *err)
+{
+    return take_reals(values, count, scan, scan_word, what, err);
+}
+
+fm_status scan_reals_on(double *values, int count, fm_scan *scan, const char *what, fm_error *err)
+{
+    return take_reals(values, count, scan, scan_word_on, what, err);
 }

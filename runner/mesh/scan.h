@@ -59,5 +59,7 @@ fm_status scan_fail(const fm_scan *scan, fm_error *err, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 /* Reads `count` numbers from the line. what: "a vertex", for messages. */
 fm_status scan_reals(double *values, int count, fm_scan *scan, const char *what, fm_error *err);
+/* The same, from this line and later ones. */
+fm_status scan_reals_on(double *values, int count, fm_scan *scan, const char *what, fm_error *err);
 
 #endif

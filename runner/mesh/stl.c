@@ -29,8 +29,10 @@ static fm_status add_corner(fm_polygons *polygons, const double at[3], fm_error 
     return polygons_corner(polygons, (uint32_t)(polygons->position_count - 1), FM_NO_NORMAL, err);
 }
 
-static fm_status read_binary_facet(fm_polygons *polygons, const char *facet, fm_error *err)
+static fm_status read_binary_facet(fm_polygons *polygons, const char *bytes, uint32_t number,
+                                   fm_error *err)
 {
+    const char *facet = bytes + STL_HEAD_BYTES + (size_t)number * STL_FACET_BYTES;
     fm_status status = FM_OK;
     for (size_t corner = 0; corner < 3 && status == FM_OK; corner++) {
         double at[3];
@@ -40,7 +42,7 @@ static fm_status read_binary_facet(fm_polygons *polygons, const char *facet, fm_
     }
     if (facet[STL_ATTRIBUTE_AT] != 0 || facet[STL_ATTRIBUTE_AT + 1] != 0)
         polygons_ignore(polygons, FM_MESH_FACE_COLOURS);
-    return status == FM_OK ? polygons_end_face(polygons, err) : status;
+    return status == FM_OK ? polygons_end_face(polygons, number, err) : status;
 }
 
 static uint64_t binary_bytes(const fm_file_bytes *file)
@@ -60,9 +62,9 @@ static fm_status read_binary(fm_polygons *polygons, const fm_file_bytes *file, f
                        "%s: %" PRIu32 " triangles need %" PRIu64
                        " bytes, the file has %zu: is it cut off?",
                        file->path, facets, binary_bytes(file), file->count);
+    polygons->element = "facet";
     for (uint32_t i = 0; i < facets && status == FM_OK; i++)
-        status = read_binary_facet(polygons,
-                                   file->bytes + STL_HEAD_BYTES + (size_t)i * STL_FACET_BYTES, err);
+        status = read_binary_facet(polygons, file->bytes, i, err);
     if (file->count > binary_bytes(file))
         polygons_ignore(polygons, FM_MESH_TRAILING);
     polygons->facts.parts = 1;
@@ -79,17 +81,45 @@ static fm_status expect(fm_scan *scan, const char *wanted, fm_error *err)
     return FM_OK;
 }
 
+/* The normal, of three words or none, and `outer`. */
+static fm_status skip_normal(fm_scan *scan, fm_error *err)
+{
+    enum { WORDS_MAX = 4 };
+    fm_word word;
+    for (int i = 0; i < WORDS_MAX; i++) {
+        if (!scan_word_on(&word, scan))
+            return scan_fail(scan, err, "the file ends before 'outer': is it cut off?");
+        if (word_is_any_case(word, "outer"))
+            return FM_OK;
+    }
+    return expect(scan, "outer", err);
+}
+
+/* A name goes to the end of its line, or to `facet normal`. */
+static void skip_name(fm_scan *scan)
+{
+    fm_word word;
+    const char *facet = NULL;
+    while (scan_word(&word, scan)) {
+        if (facet != NULL && word_is_any_case(word, "normal")) {
+            scan->at = facet;
+            return;
+        }
+        facet = word_is_any_case(word, "facet") ? word.bytes : NULL;
+    }
+}
+
 /* Behind `facet`. A loop may have any number of corners. */
 static fm_status read_facet(fm_polygons *polygons, fm_scan *scan, fm_error *err)
 {
     fm_word word;
     double at[3];
-    scan->at = scan->line_end; /* the normal */
-    fm_status status = expect(scan, "outer", err);
+    const uint64_t line = scan->line;
+    fm_status status = skip_normal(scan, err);
     if (status == FM_OK)
         status = expect(scan, "loop", err);
     while (status == FM_OK && scan_word_on(&word, scan) && word_is_any_case(word, "vertex")) {
-        status = scan_reals(at, 3, scan, "a vertex", err);
+        status = scan_reals_on(at, 3, scan, "a vertex", err);
         if (status == FM_OK)
             status = add_corner(polygons, at, err);
     }
@@ -97,7 +127,7 @@ static fm_status read_facet(fm_polygons *polygons, fm_scan *scan, fm_error *err)
         status = scan_fail(scan, err, "a facet has no 'endloop': is the file cut off?");
     if (status == FM_OK)
         status = expect(scan, "endfacet", err);
-    return status == FM_OK ? polygons_end_face(polygons, err) : status;
+    return status == FM_OK ? polygons_end_face(polygons, line, err) : status;
 }
 
 /* Behind `solid`, to its `endsolid`. */
@@ -106,10 +136,10 @@ static fm_status read_solid(fm_polygons *polygons, fm_scan *scan, fm_error *err)
     fm_word word;
     const size_t faces = polygons->face_count;
     fm_status status = FM_OK;
-    scan->at = scan->line_end; /* the name */
+    skip_name(scan);
     while (status == FM_OK && scan_word_on(&word, scan)) {
         if (word_is_any_case(word, "endsolid")) {
-            scan->at = scan->line_end;
+            skip_name(scan);
             polygons->facts.parts += polygons->face_count > faces;
             return FM_OK;
         }
@@ -127,7 +157,7 @@ static fm_status read_text(fm_polygons *polygons, const fm_file_bytes *file, fm_
 {
     fm_scan scan;
     fm_status status = scan_open(&scan, file, err);
-    while (status == FM_OK && scan_line(&scan)) {
+    while (status == FM_OK && (scan_has_word(&scan) || scan_line(&scan))) {
         status = expect(&scan, "solid", err);
         if (status == FM_OK)
             status = read_solid(polygons, &scan, err);

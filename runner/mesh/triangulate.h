@@ -18,7 +18,7 @@ typedef enum fm_cut {
     FM_CUT_NO_MEMORY
 } fm_cut;
 
-/* Ears take more than the square of the corners: a spiral of so many takes seconds. */
+/* Ears take the square of the corners: a zigzag or a spiral of so many takes 0.5 to 0.9 s. */
 enum { POLYGON_CONCAVE_MAX = 8192 };
 
 /* Starts as {0}; is used again for the next polygon. */
@@ -30,6 +30,7 @@ typedef struct fm_triangulator {
     double (*flat)[2];
     uint32_t *previous, *next;
     bool *is_reflex;
+    uint8_t *ear_kinds;
     size_t room;
 } fm_triangulator;
 

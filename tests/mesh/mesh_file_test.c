@@ -75,7 +75,59 @@ static void polygons_of_all_formats_are_cut_alike(void **state)
                  "vertex 4 4 0\nvertex 2 1 0\nvertex 0 4 0\nendloop\nendfacet\nendsolid\n",
                  3, 10.0);
     assert_refused(".obj", "v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 4\n",
-                   "face 0, of 4 corners, crosses itself");
+                   ":5: a face: of 4 corners, it crosses itself");
+}
+
+/* AC3D and 3DS come through libassimp. */
+#define AC_HEAD                                                                                    \
+    "AC3Db\nMATERIAL \"glass\" rgb 1 1 1 amb 1 1 1 emis 0 0 0 spec 0 0 0 shi 0 trans 0.75\n"       \
+    "OBJECT world\nkids 1\nOBJECT poly\n"
+
+/* Lines and points are elements, too. */
+static void refusals_name_the_face_in_the_file(void **state)
+{
+    (void)state;
+    assert_refused(".off",
+                   "OFF\n6 3 0\n0 0 0\n1 1 0\n1 0 0\n0 1 0\n2 2 0\n3 3 0\n2 4 5\n3 0 1 2\n4 0\n"
+                   "1 2 3\n",
+                   ":11: a face: of 4 corners, it crosses itself");
+    assert_refused(
+        ".ply", PLY("ascii") XYZ(4) FACES(2) END "0 0 0\n1 1 0\n1 0 0\n0 1 0\n2 0 1\n4 0 1 2 3\n",
+        ":16: a face: of 4 corners, it crosses itself");
+    assert_refused(".stl",
+                   "solid\n" FACET "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 1 0\n"
+                   "vertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n",
+                   ":9: a face: of 4 corners, it crosses itself");
+    assert_refused(".ac",
+                   AC_HEAD "numvert 4\n0 0 0\n1 1 0\n1 0 0\n0 1 0\nnumsurf 2\nSURF 0x20\nmat 0\n"
+                           "refs 3\n0 0 0\n1 0 0\n2 0 0\nSURF 0x20\nmat 0\nrefs 4\n0 0 0\n1 0 0\n"
+                           "2 0 0\n3 0 0\nkids 0\n",
+                   ": face of all meshes 1, from 0: of 4 corners, it crosses itself");
+}
+
+/* A line of two corners, and a face with a corner that the file lacks. */
+static void elements_of_binary_files_are_counted(void **state)
+{
+    static const char head[] =
+        "ply\nformat binary_little_endian 1.0\n" XYZ(1) "element face 2\nproperty list uchar uchar "
+                                                        "vertex_indices\n" END;
+    static const unsigned char faces[] = { 2, 0, 0, 3, 0, 0, 7 };
+    char bytes[512] = { 0 };
+    fm_error err = { 0 };
+    fm_mesh mesh;
+    (void)state;
+    const size_t at = strlen(head) + 12;
+    memcpy(bytes, head, strlen(head));
+    memcpy(bytes + at, faces, sizeof faces);
+    assert_int_equal(read_bytes(&mesh, &err, ".ply", bytes, at + sizeof faces), FM_INVALID);
+    assert_non_null(strstr(err.message, ": face 1, from 0: vertex 7 of 1"));
+    memset(bytes, 0, sizeof bytes);
+    bytes[80] = 2;
+    const float nan = NAN;
+    memcpy(bytes + 84 + 50 + 12, &nan, sizeof nan);
+    assert_int_equal(read_bytes(&mesh, &err, ".stl", bytes, 84 + 100), FM_INVALID);
+    assert_non_null(
+        strstr(err.message, ": facet 1, from 0: a coordinate of vertex 3 is not finite"));
 }
 
 static void facets_are_flat_and_other_meshes_smooth(void **state)
@@ -90,6 +142,12 @@ static void facets_are_flat_and_other_meshes_smooth(void **state)
     assert_true(fabs(mesh.normals[0].z - 1.0) < rounding);
     assert_true(fabs(mesh.normals[3].y + 1.0) < rounding);
     mesh_free(&mesh);
+    load(&mesh, ".ply",
+         PLY("ascii") FACES(1) XYZ(3) "property float nx\nproperty float ny\nproperty float "
+                                      "nz\n" END
+                                      "3 0 1 2\n0 0 0 1 0 0\n1 0 0 1 0 0\n0 1 0 1 0 0\n");
+    assert_true(mesh.normals[0].x > 0.9);
+    mesh_free(&mesh);
     load(&mesh, ".obj", CORNERS "v 0 0 1\nv 1 0 0\nf 1 2 3\nf 1 5 4\n");
     assert_int_equal(mesh.vertex_count, 4); /* the second (1 0 0) is the first */
     mesh_free(&mesh);
@@ -98,11 +156,6 @@ static void facets_are_flat_and_other_meshes_smooth(void **state)
     assert_true(mesh.normals[2].z > 0.0); /* the file's is none */
     mesh_free(&mesh);
 }
-
-/* AC3D and 3DS come through libassimp. */
-#define AC_HEAD                                                                                    \
-    "AC3Db\nMATERIAL \"glass\" rgb 1 1 1 amb 1 1 1 emis 0 0 0 spec 0 0 0 shi 0 trans 0.75\n"       \
-    "OBJECT world\nkids 1\nOBJECT poly\n"
 
 static void other_formats_are_treated_alike(void **state)
 {
@@ -143,6 +196,32 @@ static void instances_and_strips_of_gltf_are_read(void **state)
     assert_int_equal(facts.lines, 2);
     assert_int_equal(facts.ignored, 1u << FM_MESH_VERTEX_COLOURS | 1u << FM_MESH_MATERIALS);
     assert_true(facts.box.high[2] >= 2.0);
+}
+
+/* 4097 nodes on one mesh of 32 769 vertices, all zero. */
+static void small_files_of_many_vertices_are_refused(void **state)
+{
+    enum { NODES = 4097, VERTICES = 32769, LETTERS = VERTICES * 16 };
+    static char letters[LETTERS + 1];
+    fm_text text = { 0 };
+    (void)state;
+    memset(letters, 'A', LETTERS);
+    text_add(&text, "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"nodes\":[");
+    for (int i = 0; i < NODES; i++)
+        text_add(&text, "%s{\"mesh\":0}", i > 0 ? "," : "");
+    text_add(&text, "],\"scenes\":[{\"nodes\":[0");
+    for (int i = 1; i < NODES; i++)
+        text_add(&text, ",%d", i);
+    text_add(
+        &text,
+        "]}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"accessors\":[{"
+        "\"bufferView\":0,\"componentType\":5126,\"count\":%d,\"type\":\"VEC3\"}],"
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":%d}],\"buffers\":[{\"byteLength\":%d,"
+        "\"uri\":\"data:application/octet-stream;base64,",
+        VERTICES, VERTICES * 12, VERTICES * 12);
+    text_add(&text, "%s\"}]}", letters);
+    assert_refused(".gltf", text.bytes, "more than 134217728 vertices or faces");
+    text_free(&text);
 }
 
 /* assimp rounds to floats before anybody can move the mesh. */
@@ -213,9 +292,12 @@ int main(void)
         cmocka_unit_test(near_coordinates_keep_their_bits),
         cmocka_unit_test(stray_vertices_stay_out_of_the_box),
         cmocka_unit_test(polygons_of_all_formats_are_cut_alike),
+        cmocka_unit_test(refusals_name_the_face_in_the_file),
+        cmocka_unit_test(elements_of_binary_files_are_counted),
         cmocka_unit_test(facets_are_flat_and_other_meshes_smooth),
         cmocka_unit_test(other_formats_are_treated_alike),
         cmocka_unit_test(instances_and_strips_of_gltf_are_read),
+        cmocka_unit_test(small_files_of_many_vertices_are_refused),
         cmocka_unit_test(coarse_floats_are_told_or_refused),
         cmocka_unit_test(cut_files_of_other_formats_are_refused),
         cmocka_unit_test(only_regular_files_of_known_endings_are_read),

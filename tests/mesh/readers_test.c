@@ -78,6 +78,8 @@ static void off_is_read_in_all_its_spellings(void **state)
     assert_loads(".off", text, 10, 3.0);
     assert_loads(".off", "3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", 1, HALF);
     assert_loads(".off", "OFF 3 1 0 0 0 0 \n1 0 0\n0 1 0\n3 0 1 2", 1, HALF);
+    assert_loads(".off", "OFF3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2", 1, HALF);
+    assert_loads(".off", "COFF3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2", 1, HALF);
     assert_loads(".off", "NOFF\n3 1 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n3 0 1 2", 1, HALF);
 }
 
@@ -110,6 +112,8 @@ static void off_is_refused_with_its_line(void **state)
     assert_refused(".off", "OFF\n3 1 0\n" OFF_CORNERS "3 0 1 -1\n", ":6: face 0: vertex -1 of 3");
     assert_refused(".off", "OFF\n3 1 0\n0 0 zero\n", ":3: vertex 0: 'zero' is not a number");
     assert_refused(".off", "OFF BINARY\n", ":1: binary OFF is not read");
+    assert_refused(".off", "OFF3x 1 0\n", ":1: number of vertices: '3x'");
+    assert_refused(".off", "OFFER\n3 1 0\n", ":1: 'OFFER'");
     assert_refused(".off", "4OFF\n3 1 0\n", ":1: '4OFF'");
     assert_refused(".off", "OFF\n-3 1 0\n", ":2: number of vertices: '-3'");
     assert_refused(".off", "OFF\n3 0 0\n" OFF_CORNERS, "no triangles");
@@ -127,7 +131,7 @@ static void ply_strips_are_read(void **state)
     assert_loads(".ply", STRIP_HEAD "6 0 1 2 3 4 5\n", 4, 2.0);
     assert_loads(".ply", STRIP_HEAD "7 0 1 2 -1 2 3 4\n", 2, 1.0);
     assert_loads(".ply", STRIP_HEAD "8 0 1 2 2 3 3 4 5\n", 2, 1.0);
-    assert_refused(".ply", STRIP_HEAD "3 0 1 6\n", "face 0: vertex 6 of 6");
+    assert_refused(".ply", STRIP_HEAD "3 0 1 6\n", ":17: a face: vertex 6 of 6");
     assert_refused(".ply", STRIP_HEAD "3 0 1 -2\n", "tristrips 0: an index that is no vertex's");
 }
 
@@ -218,6 +222,21 @@ static void ply_says_what_it_leaves_out(void **state)
     assert_true(ignores(&facts, FM_MESH_UNKNOWN));
 }
 
+/* But what a line has beyond the head does not become the next element. */
+static void ply_lines_hold_whole_elements(void **state)
+{
+    (void)state;
+#define LINES PLY("ascii") XYZ(3) FACES(1) END
+    assert_loads(".ply", LINES "0 0 0 1 0 0\n0 1 0\n3 0 1 2\n", 1, HALF);
+    assert_loads(".ply", LINES "0 0 0 1 0 0 0 1 0 3 0 1 2\n", 1, HALF);
+    assert_refused(".ply", LINES "0 0 0 9\n1 0 0 9\n0 1 0 9\n3 0 1 2\n",
+                   ":11: vertex 1: a value is missing, or a line has more than is declared");
+    assert_refused(".ply", PLY("ascii") XYZ(2) FACES(1) END "0 0 0 1 0 0\n3 0 0 1\n3 0 0 1\n",
+                   ":13: face 0: more values than the head declares");
+    assert_refused(".ply", LINES "0 0\n0 1 0 0\n0 1 0\n3 0 1 2\n",
+                   ":11: vertex 0: a value is missing");
+}
+
 static void ply_is_refused_with_its_element(void **state)
 {
     (void)state;
@@ -252,6 +271,25 @@ static void stl_is_read_in_all_its_spellings(void **state)
                  "SOLID A\nFACET NORMAL 0 0 1\nOUTER LOOP\nVERTEX 0 0 0\nVERTEX 1 0 0\n"
                  "VERTEX 0 1 0\nENDLOOP\nENDFACET\nENDSOLID A\n",
                  1, HALF);
+    assert_loads(".stl",
+                 "solid a\nfacet normal 0 0 1 outer loop\nvertex 0 0 0 vertex 1 0\n0 vertex 0 1 0 "
+                 "endloop endfacet endsolid a\n",
+                 1, HALF);
+    assert_loads(".stl",
+                 "solid\nfacet\nouter loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop\n"
+                 "endfacet\nendsolid",
+                 1, HALF);
+    assert_loads(".stl",
+                 "solid a facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 "
+                 "endloop endfacet endsolid a",
+                 1, HALF);
+    assert_refused(".stl", "solid\nendsolid solid facet normal 0 0 1\n",
+                   ":2: 'facet', where 'solid'");
+    assert_refused(".stl", "solid a\nfacet normal 0 0 1 0 outer loop\n", ":2: '0', where 'outer'");
+    assert_refused(".stl", "solid a\nfacet normal 0 0 1 outer loop vertex 0 0 z\n",
+                   ":2: a vertex: 'z' is not a number");
+    assert_refused(".stl", "solid a\nfacet normal 0 0 1 outer loop vertex 0 0",
+                   ":2: a vertex of 2 numbers, not 3: is the file cut off?");
     assert_refused(".stl", "solid a\n" FACET, "no 'endsolid': is the file cut off?");
     assert_refused(".stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n",
                    "no 'endloop'");
@@ -294,6 +332,7 @@ int main(void)
         cmocka_unit_test(ply_strips_turn_one_way),
         cmocka_unit_test(ply_is_read_in_both_byte_orders),
         cmocka_unit_test(ply_says_what_it_leaves_out),
+        cmocka_unit_test(ply_lines_hold_whole_elements),
         cmocka_unit_test(ply_is_refused_with_its_element),
         cmocka_unit_test(stl_is_read_in_all_its_spellings),
         cmocka_unit_test(binary_stl_is_measured),
