@@ -24,7 +24,7 @@ typedef struct mesh_work {
     size_t index_count;
     uint32_t *place; /* [position_count]: the first position that equals this one */
     uint32_t *slope; /* [normal_count]: the same of normals */
-    vec3 *smooth;    /* [position_count]: sum of the triangles' normals, by their area */
+    vec3 *smooth;    /* [position_count]: sum of the triangles' unit normals */
     fm_corner *keys; /* [index_count]: what makes two corners one vertex */
     fm_error *err;
 } mesh_work;
@@ -255,7 +255,7 @@ static fm_status share(mesh_work *work)
     for (size_t i = 0; i < work->index_count; i++) {
         work->keys[i] = key_of(work, i);
         vec3 *sum = &work->smooth[work->keys[i].position];
-        *sum = plus(*sum, triangle_normal(work, i - i % 3));
+        *sum = plus(*sum, normalized(triangle_normal(work, i - i % 3)));
     }
     return FM_OK;
 }
