@@ -24,6 +24,7 @@ struct fm_journal {
 static const char *const event_name[] = {
     [FM_JOURNAL_BEGIN] = "begin",
     [FM_JOURNAL_END] = "end",
+    [FM_JOURNAL_DIED] = "died",
     [FM_JOURNAL_STOP] = "stop",
 };
 _Static_assert(sizeof event_name / sizeof event_name[0] == FM_JOURNAL_EVENT_COUNT, "one each");
@@ -200,7 +201,7 @@ static const char *replay_line(const char *text, const fm_journal_reader *reader
             if (strcmp(name, event_name[event]) == 0)
                 break;
     if (event == FM_JOURNAL_EVENT_COUNT || launch < 0 ||
-        (event == FM_JOURNAL_END) != json_is_object(result))
+        (event == FM_JOURNAL_END || event == FM_JOURNAL_DIED) != json_is_object(result))
         why = "not a line that fragmark writes";
     else if (reader->line(reader->context, (fm_journal_event)event, case_id, (uint32_t)launch,
                           result, below) != FM_OK)

@@ -41,12 +41,13 @@ static fm_status replay(void *context, fm_journal_event event, const char *case_
                        launch);
     fm_launch_state *state = &run->results->cases[i].launches[launch];
     switch (event) {
-    case FM_JOURNAL_BEGIN:
-        state->begins++;
-        return FM_OK;
+    case FM_JOURNAL_BEGIN: /* what began and has no end is measured again: nobody is to blame */
     case FM_JOURNAL_STOP:
-        state->begins = 0;
         return FM_OK;
+    case FM_JOURNAL_DIED:
+        free(state->death);
+        state->death = strdup(answer_message(result));
+        return state->death != NULL ? FM_OK : fm_fail(err, FM_NO_MEMORY, "no memory for a death");
     case FM_JOURNAL_END:
         results_take_mesh(run->results, result);
         return state->is_done ? fm_fail(err, FM_INVALID, "launch %u ended twice", launch)
@@ -55,25 +56,6 @@ static fm_status replay(void *context, fm_journal_event event, const char *case_
         break;
     }
     return fm_fail(err, FM_INVALID, "unknown event");
-}
-
-/* A launch that took the whole run down twice is not tried a third time. */
-static fm_status bury_killers(run_state *run, fm_error *err)
-{
-    fm_status status = FM_OK;
-    for (size_t i = 0; i < run->plan->count && status == FM_OK; i++) {
-        for (uint32_t launch = 0; launch < plan_case_launches(run->plan, i) && status == FM_OK;
-             launch++) {
-            const fm_launch_state *state = &run->results->cases[i].launches[launch];
-            if (state->is_done || state->begins < 2)
-                continue;
-            json_t *result = answer_make(FM_CASE_CRASH,
-                                         "began twice and never ended: the whole run died with it");
-            status = run_end_launch(run, i, launch, result, err);
-            json_decref(result);
-        }
-    }
-    return status;
 }
 
 static fm_status resume(run_state *run, fm_error *err)
@@ -88,15 +70,13 @@ static fm_status resume(run_state *run, fm_error *err)
                                 journal_run_id(run->journal), err);
     if (status == FM_OK)
         status = journal_replay(run->journal, &reader, &run->is_damaged, err);
-    if (status == FM_OK)
-        status = bury_killers(run, err);
     return status;
 }
 
 static bool should_stop(run_state *run)
 {
     if (run->stop_signal == 0)
-        run->stop_signal = launcher_stop_signal(&run->launcher);
+        run->stop_signal = stop_signals_next(&run->signals, 0.0);
     return run->stop_signal != 0;
 }
 
@@ -236,10 +216,11 @@ fm_status run_cases(fm_run_result *result, const fm_plan *plan, const fm_plugin_
     if (run.order == NULL)
         return fm_fail(err, FM_NO_MEMORY, "no memory for %zu cases", plan->count);
     status = prepare(&run, err);
+    if (status == FM_OK)
+        status = stop_signals_open(&run.signals, err);
     if (status == FM_OK) {
-        launcher_open(&run.launcher);
         status = run_launches(&run, err);
-        launcher_close(&run.launcher);
+        stop_signals_close(&run.signals);
     }
     if (status == FM_OK)
         status = results_end(run.results, err);

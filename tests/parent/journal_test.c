@@ -18,7 +18,7 @@ typedef struct heard {
 static fm_status hear(void *context, fm_journal_event event, const char *case_id, uint32_t launch,
                       const json_t *result, fm_error *err)
 {
-    static const char *const names[] = { "begin", "end", "stop" };
+    static const char *const names[] = { "begin", "end", "died", "stop" };
     heard *all = context;
     const size_t length = strlen(all->text);
     (void)err;
@@ -66,10 +66,13 @@ static void journal_tells_again_what_was_written(void **state)
     fake_open(&fake, NO_IDS, 1);
     fm_journal *journal = opened(&fake);
     write_case(journal, "a");
+    json_t *death = json_pack("{s:s}", "status", "crash");
+    assert_int_equal(journal_write(journal, FM_JOURNAL_DIED, "b", 3, death, NULL), FM_OK);
+    json_decref(death);
     assert_int_equal(journal_write(journal, FM_JOURNAL_STOP, "b", 3, NULL, NULL), FM_OK);
     journal_close(journal);
     replayed(&all, &fake);
-    assert_string_equal(all.text, "begin a 0|end a 0 ok|stop b 3|");
+    assert_string_equal(all.text, "begin a 0|end a 0 ok|died b 3 crash|stop b 3|");
     fake_close(&fake);
 }
 
