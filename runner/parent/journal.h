@@ -4,6 +4,7 @@
  *   {"event":"end","case":ID,"launch":0,"result":{...}}      after it
  *   {"event":"died","case":ID,"launch":0,"result":{...}}     its worker died the first time: how
  *   {"event":"stop","case":ID,"launch":0}                    it was stopped: it did not finish
+ *   {"event":"forget","case":ID,"launch":0}                  all of the case above counts no more
  * The file is locked while it is open, so that two runs cannot share a directory. */
 #ifndef FM_JOURNAL_H
 #define FM_JOURNAL_H
@@ -21,6 +22,7 @@ typedef enum fm_journal_event {
     FM_JOURNAL_END,
     FM_JOURNAL_DIED,
     FM_JOURNAL_STOP,
+    FM_JOURNAL_FORGET,
     FM_JOURNAL_EVENT_COUNT
 } fm_journal_event;
 
@@ -30,6 +32,7 @@ typedef struct fm_journal_reader {
      * or launch. */
     fm_status (*line)(void *context, fm_journal_event event, const char *case_id, uint32_t launch,
                       const json_t *result, fm_error *err);
+    bool only_forgets; /* it is told of FM_JOURNAL_FORGET alone */
     void *context;
 } fm_journal_reader;
 
@@ -38,7 +41,8 @@ typedef struct fm_journal_reader {
  * *is_damaged tells the first two. A torn last line, which a killed run leaves, is cut off. */
 fm_status journal_open(fm_journal **journal, const char *directory, const char *plan_hash,
                        bool *is_damaged, fm_error *err);
-/* Tells the reader all launches of the run so far; once, before the first journal_write. */
+/* Tells the reader all lines of the run so far, also those that are forgotten further down; not
+ * between two calls of journal_write. */
 fm_status journal_replay(fm_journal *journal, const fm_journal_reader *reader, bool *is_damaged,
                          fm_error *err);
 void journal_close(fm_journal *journal);

@@ -34,16 +34,19 @@ typedef struct fm_run_desc {
     bool validation;       /* open devices with API validation */
     bool no_timers;
     bool no_images;
-    uint32_t timeout_s;         /* of one launch; 0 is 600 */
-    uint64_t memory_bytes;      /* address-space limit of one launch; 0: none */
-    FILE *progress;             /* NULL: silent */
-    const char *worker;         /* executed as `WORKER worker REQUEST RESULT`; NULL: this program */
+    uint32_t retried;      /* statuses, as bits 1u << fm_case_status: rows of an earlier run that
+                              have them are measured anew, and the old ones forgotten */
+    uint32_t timeout_s;    /* of one launch; 0 is 600 */
+    uint64_t memory_bytes; /* address-space limit of one launch; 0: none */
+    FILE *progress;        /* NULL: silent */
+    const char *worker;    /* executed as `WORKER worker REQUEST RESULT`; NULL: this program */
     const char *const *figures; /* ids that this run is for, for the report; ends with NULL */
 } fm_run_desc;
 
 /* Outcome of a run, for the exit code. */
 typedef struct fm_run_result {
     uint32_t ok, not_supported, failed;
+    uint32_t forgotten;  /* rows of an earlier run, to be measured anew */
     uint32_t skipped;    /* not finished, because the run was interrupted */
     uint32_t noisy;      /* rows that are marked so in summary.csv */
     double waited_share; /* of the time that threads could have run in launches on software devices,

@@ -23,7 +23,9 @@ typedef struct run_state {
     fm_truth_jobs truths;
     fm_stop_signals signals;
     fm_progress progress;
-    uint32_t *order; /* [plan->count]: of the running round */
+    uint32_t *order;   /* [plan->count]: of the running round */
+    uint32_t *forgets; /* [plan->count]: of the case, in the rest of the journal */
+    uint32_t forgotten;
     int stop_signal;
     bool is_damaged;
 } run_state;
@@ -34,6 +36,8 @@ fm_status run_path(char path[FM_PATH_MAX_BYTES], const run_state *run, const cha
                    const char *name, const char *ending, fm_error *err);
 /* FM_INVALID: a folder cannot be made, or holds results that no journal belongs to. */
 fm_status run_make_folders(const run_state *run, fm_error *err);
+/* Those of a case that is measured anew. */
+void run_remove_images(const run_state *run, size_t case_index);
 /* What only running launches need. Folders that hold more stay. */
 void run_remove_truths(const run_state *run);
 

@@ -52,7 +52,7 @@ static const char fake_worker_script[] =
     "lost) [ -e \"$here/room\" ] && echo \"$good\" >\"$3\" && exit 0\n"
     "    echo '{\"status\":\"skipped\",\"is_runs_fault\":true,\"message\":\"disk full\"}' >\"$3\" "
     ";;\n"
-    "silent) exit 3 ;;\n"
+    "silent) [ ! -e \"$here/room\" ] && exit 3; echo \"$good\" >\"$3\" ;;\n"
     "status) echo '{\"status\":\"splendid\"}' >\"$3\" ;;\n"
     "stops) [ -e \"$here/stopped\" ] || { touch \"$here/stopped\"; kill -TERM $FAKE_PARENT; sleep "
     "60; }\n"

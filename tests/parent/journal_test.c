@@ -18,7 +18,7 @@ typedef struct heard {
 static fm_status hear(void *context, fm_journal_event event, const char *case_id, uint32_t launch,
                       const json_t *result, fm_error *err)
 {
-    static const char *const names[] = { "begin", "end", "died", "stop" };
+    static const char *const names[] = { "begin", "end", "died", "stop", "forget" };
     heard *all = context;
     const size_t length = strlen(all->text);
     (void)err;
@@ -111,6 +111,24 @@ static void journal_cuts_a_torn_last_line_off(void **state)
     fake_close(&fake);
 }
 
+static void journal_can_tell_of_what_is_forgotten_alone(void **state)
+{
+    (void)state;
+    fake_plan fake;
+    heard all = { "" };
+    bool is_damaged = false;
+    const fm_journal_reader reader = { .line = hear, .only_forgets = true, .context = &all };
+    fake_open(&fake, NO_IDS, 1);
+    fm_journal *journal = opened(&fake);
+    write_case(journal, "a");
+    assert_int_equal(journal_write(journal, FM_JOURNAL_FORGET, "a", 0, NULL, NULL), FM_OK);
+    write_case(journal, "a");
+    assert_int_equal(journal_replay(journal, &reader, &is_damaged, NULL), FM_OK);
+    assert_string_equal(all.text, "forget a 0|");
+    journal_close(journal);
+    fake_close(&fake);
+}
+
 static void journal_starts_anew_after_a_torn_first_line(void **state)
 {
     (void)state;
@@ -195,6 +213,7 @@ int main(void)
         cmocka_unit_test(journal_tells_again_what_was_written),
         cmocka_unit_test(journal_keeps_the_runs_id_and_start),
         cmocka_unit_test(journal_cuts_a_torn_last_line_off),
+        cmocka_unit_test(journal_can_tell_of_what_is_forgotten_alone),
         cmocka_unit_test(journal_starts_anew_after_a_torn_first_line),
         cmocka_unit_test(journal_reports_damage_with_its_line),
         cmocka_unit_test(journal_refuses_foreign_files_and_leaves_them),

@@ -201,6 +201,39 @@ static void run_repeats_nothing_that_is_finished(void **state)
     fake_close(&fake);
 }
 
+/* Rows of an earlier run that are not wanted any more, and no others. */
+static void run_measures_anew_what_is_to_be_retried(void **state)
+{
+    (void)state;
+    static const char *const ids[] = { "a", "crash", "silent", "unlike", NULL };
+    fake_plan fake;
+    fm_run_result result;
+    fm_error err = { 0 };
+    char directory[96], image[160];
+    open_with_worker(&fake, ids, 2);
+    assert_int_equal(run_well(&fake).failed, 3);
+    const size_t samples = count_in_file(&fake, "out/samples.csv", ",frame_ms,");
+    fake_write(&fake, "room", "", "w");
+    assert_int_equal(run_well(&fake).failed, 3); /* what is measured stays */
+    snprintf(directory, sizeof directory, "%s/out", fake.folder);
+    snprintf(image, sizeof image, "%s/images/%s.rgba32f", directory, fake.cases[3].id);
+    assert_int_equal(text_write_file(image, "old", 3, NULL), FM_OK);
+    const fm_run_desc desc = { .directory = directory,
+                               .timeout_s = 20,
+                               .retried = 1u << FM_CASE_CRASH | 1u << FM_CASE_WRONG_IMAGE,
+                               .worker = fake.worker };
+    assert_int_equal(run_cases(&result, &fake.plan, &fake.list, &desc, &err), FM_OK);
+    assert_int_equal(result.forgotten, 3);
+    assert_int_equal(result.ok, 2); /* a, silent */
+    assert_int_not_equal(access(image, F_OK), 0);
+    assert_int_equal(count_in_file(&fake, "calls", "a "), 2);
+    assert_int_equal(count_in_file(&fake, "calls", "unlike "), 4);
+    assert_int_equal(count_in_file(&fake, "out/samples.csv", ",frame_ms,"), samples + 4);
+    assert_int_equal(run_well(&fake).ok, 2); /* and so it is read again */
+    assert_int_equal(count_in_file(&fake, "out/samples.csv", ",frame_ms,"), samples + 4);
+    fake_close(&fake);
+}
+
 static void run_refuses_a_folder_of_another_plan(void **state)
 {
     (void)state;
@@ -278,6 +311,7 @@ int main(void)
         cmocka_unit_test(run_fails_the_cases_of_a_truth_that_failed),
         cmocka_unit_test(run_finds_an_exact_method_that_draws_differently),
         cmocka_unit_test(run_repeats_nothing_that_is_finished),
+        cmocka_unit_test(run_measures_anew_what_is_to_be_retried),
         cmocka_unit_test(run_refuses_a_folder_of_another_plan),
         cmocka_unit_test(run_refuses_results_without_a_journal),
         cmocka_unit_test(run_reports_a_damaged_journal),
