@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "cli.h"
+#include "model/outcome.h"
 
 enum {
     KEY_METHOD = 256,
@@ -15,7 +16,8 @@ enum {
     KEY_NO_IMAGES,
     KEY_VALIDATION,
     KEY_NO_TIMERS,
-    KEY_NO_REPORT
+    KEY_NO_REPORT,
+    KEY_RETRY
 };
 
 static const struct argp_option selection_options[] = {
@@ -36,6 +38,9 @@ static const struct argp_option running_options[] = {
     { "output", 'o', "DIR", 0, "folder of the results; the same one continues a run; out-UTC", 0 },
     { "timeout", KEY_TIMEOUT, "S", 0, "seconds that one launch may take; 600", 0 },
     { "memory-limit", KEY_MEMORY, "BYTES", 0, "address space of one launch: 4G, 512M; none", 0 },
+    { "retry", KEY_RETRY, "STATUS,...", 0,
+      "rows of an earlier run that have one of these statuses are measured anew: crash, timeout",
+      0 },
     { "no-images", KEY_NO_IMAGES, NULL, 0, "keep no images", 0 },
     { "no-report", KEY_NO_REPORT, NULL, 0, "CSV files only; `fragmark report DIR` draws later", 0 },
     { "validation", KEY_VALIDATION, NULL, 0, "open devices with API validation (times suffer)", 0 },
@@ -106,11 +111,47 @@ static bool parse_bytes(uint64_t *bytes, const char *text)
     return true;
 }
 
+/* What an earlier run found out may be measured anew, but for what is well. */
+static fm_status add_retried(uint32_t *retried, const char *name, fm_error *err)
+{
+    const char *names[FM_CASE_STATUS_COUNT];
+    size_t count = 0;
+    fm_case_status status;
+    if (case_status_parse(&status, name) && status > FM_CASE_OK) {
+        *retried |= 1u << status;
+        return FM_OK;
+    }
+    if (case_status_parse(&status, name))
+        return fm_fail(err, FM_INVALID, "--retry %s: %s", name,
+                       status == FM_CASE_OK ? "what is well stays; for new times name another -o"
+                                            : "the same command measures these without it");
+    for (int i = FM_CASE_OK + 1; i < FM_CASE_STATUS_COUNT; i++)
+        names[count++] = case_status_name((fm_case_status)i);
+    const char *nearest = text_nearest(name, names, count);
+    return fm_fail(err, FM_INVALID, "--retry: no status '%s'; %s '%s'", name,
+                   nearest != NULL ? "the nearest is" : "there is",
+                   nearest != NULL ? nearest : names[count - 1]);
+}
+
+static fm_status parse_retried(uint32_t *retried, const char *text, fm_error *err)
+{
+    fm_text_list names = { 0 };
+    fm_status status = names_add_split(&names, text, err);
+    for (size_t i = 0; i < names.count && status == FM_OK; i++)
+        status = add_retried(retried, names.items[i], err);
+    text_list_free(&names);
+    return status;
+}
+
 static error_t parse_running(int key, char *text, struct argp_state *state)
 {
     fm_arguments *arguments = state->input;
     uint64_t number = 0;
+    fm_error err = { 0 };
     switch (key) {
+    case KEY_RETRY:
+        require(state, parse_retried(&arguments->retried, text, &err), &err);
+        return 0;
     case 'o':
         if (text[0] == '\0' || strlen(text) >= FM_PATH_MAX_BYTES / 2)
             argp_error(state, "-o: a path of 1 to %d bytes, please", FM_PATH_MAX_BYTES / 2 - 1);

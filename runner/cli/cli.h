@@ -64,6 +64,7 @@ typedef struct fm_arguments {
     const char *reference; /* for the report: NAME, DIR or none; NULL: not given */
     uint32_t timeout_s;
     uint64_t memory_bytes, seed;
+    uint32_t retried; /* statuses, as bits */
     bool has_seed, no_images, no_report, validation, no_timers, quiet, json, smoke, large;
 } fm_arguments;
 

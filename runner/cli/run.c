@@ -188,6 +188,7 @@ int cli_run_plan(const fm_arguments *arguments, const cli_run_desc *desc)
         .validation = arguments->validation,
         .no_timers = arguments->no_timers,
         .no_images = arguments->no_images,
+        .retried = arguments->retried,
         .timeout_s = arguments->timeout_s,
         .memory_bytes = arguments->memory_bytes,
         .progress = arguments->quiet ? NULL : arguments->cli->talk,

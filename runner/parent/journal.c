@@ -22,14 +22,14 @@ struct fm_journal {
 };
 
 static const char *const event_name[] = {
-    [FM_JOURNAL_BEGIN] = "begin",
-    [FM_JOURNAL_END] = "end",
-    [FM_JOURNAL_STOP] = "stop",
+    [FM_JOURNAL_BEGIN] = "begin", [FM_JOURNAL_END] = "end",       [FM_JOURNAL_DIED] = "died",
+    [FM_JOURNAL_STOP] = "stop",   [FM_JOURNAL_FORGET] = "forget",
 };
 _Static_assert(sizeof event_name / sizeof event_name[0] == FM_JOURNAL_EVENT_COUNT, "one each");
 
 /* How every journal begins; json_dumps keeps the order of json_pack. */
 static const char plan_line_start[] = "{\"event\":\"plan\"";
+static const char forget_line_start[] = "{\"event\":\"forget\"";
 
 static fm_status write_line(fm_journal *journal, json_t *line, fm_error *err)
 {
@@ -200,7 +200,7 @@ static const char *replay_line(const char *text, const fm_journal_reader *reader
             if (strcmp(name, event_name[event]) == 0)
                 break;
     if (event == FM_JOURNAL_EVENT_COUNT || launch < 0 ||
-        (event == FM_JOURNAL_END) != json_is_object(result))
+        (event == FM_JOURNAL_END || event == FM_JOURNAL_DIED) != json_is_object(result))
         why = "not a line that fragmark writes";
     else if (reader->line(reader->context, (fm_journal_event)event, case_id, (uint32_t)launch,
                           result, below) != FM_OK)
@@ -224,7 +224,9 @@ fm_status journal_replay(fm_journal *journal, const fm_journal_reader *reader, b
     for (unsigned number = 2; (length = getline(&text, &room, file)) > 0; number++) {
         if (text[length - 1] != '\n')
             break; /* torn */
-        const char *why = replay_line(text, reader, &below);
+        const bool is_told = !reader->only_forgets ||
+                             strncmp(text, forget_line_start, sizeof forget_line_start - 1) == 0;
+        const char *why = is_told ? replay_line(text, reader, &below) : NULL;
         if (why != NULL) {
             status = damaged(journal, is_damaged, number, why, err);
             goto out;

@@ -2,7 +2,9 @@
  *   {"event":"plan","plan":HASH,"run_id":ID,"started":UTC}   first
  *   {"event":"begin","case":ID,"launch":0}                   before a launch
  *   {"event":"end","case":ID,"launch":0,"result":{...}}      after it
- *   {"event":"stop","case":ID,"launch":0}                    the user stopped it: never began
+ *   {"event":"died","case":ID,"launch":0,"result":{...}}     its worker died the first time: how
+ *   {"event":"stop","case":ID,"launch":0}                    it was stopped: it did not finish
+ *   {"event":"forget","case":ID,"launch":0}                  all of the case above counts no more
  * The file is locked while it is open, so that two runs cannot share a directory. */
 #ifndef FM_JOURNAL_H
 #define FM_JOURNAL_H
@@ -18,15 +20,19 @@ typedef struct fm_journal fm_journal;
 typedef enum fm_journal_event {
     FM_JOURNAL_BEGIN,
     FM_JOURNAL_END,
+    FM_JOURNAL_DIED,
     FM_JOURNAL_STOP,
+    FM_JOURNAL_FORGET,
     FM_JOURNAL_EVENT_COUNT
 } fm_journal_event;
 
 /* What the lines of an earlier run tell, in order. */
 typedef struct fm_journal_reader {
-    /* result is borrowed; NULL but for FM_JOURNAL_END. FM_INVALID: no such case or launch. */
+    /* result is borrowed; NULL but for FM_JOURNAL_END and FM_JOURNAL_DIED. FM_INVALID: no such case
+     * or launch. */
     fm_status (*line)(void *context, fm_journal_event event, const char *case_id, uint32_t launch,
                       const json_t *result, fm_error *err);
+    bool only_forgets; /* it is told of FM_JOURNAL_FORGET alone */
     void *context;
 } fm_journal_reader;
 
@@ -35,12 +41,14 @@ typedef struct fm_journal_reader {
  * *is_damaged tells the first two. A torn last line, which a killed run leaves, is cut off. */
 fm_status journal_open(fm_journal **journal, const char *directory, const char *plan_hash,
                        bool *is_damaged, fm_error *err);
-/* Tells the reader all launches of the run so far; once, before the first journal_write. */
+/* Tells the reader all lines of the run so far, also those that are forgotten further down; not
+ * between two calls of journal_write. */
 fm_status journal_replay(fm_journal *journal, const fm_journal_reader *reader, bool *is_damaged,
                          fm_error *err);
 void journal_close(fm_journal *journal);
 
-/* Adds a line and waits until it is on disk. result: FM_JOURNAL_END only; borrowed. */
+/* Adds a line and waits until it is on disk. result: of FM_JOURNAL_END and FM_JOURNAL_DIED
+ * only; borrowed. */
 fm_status journal_write(fm_journal *journal, fm_journal_event event, const char *case_id,
                         uint32_t launch, json_t *result, fm_error *err);
 

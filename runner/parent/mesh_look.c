@@ -13,7 +13,7 @@ enum { LOOK_TIMEOUT_S = 600 };
 typedef struct look {
     FILE *talk;
     const char *worker;
-    fm_launcher launcher;
+    fm_stop_signals signals;
     bool stops; /* a signal asked for it */
     fm_error *err;
     /* of one worker after the other */
@@ -80,8 +80,8 @@ static fm_status look_at(look *state, const fm_case *planned)
                                   .timeout_s = LOOK_TIMEOUT_S };
     fm_status status = request_write(state->request, &request, state->err);
     if (status == FM_OK)
-        status = launch_worker(&outcome, &state->launcher, &desc, state->err);
-    state->stops = outcome.is_interrupted;
+        status = launch_worker(&outcome, &state->signals, &desc, state->err);
+    state->stops = outcome.stop_signal != 0;
     if (status == FM_OK && !state->stops)
         tell(state->talk, planned->settings.mesh, outcome.result);
     json_decref(outcome.result);
@@ -117,9 +117,11 @@ fm_status mesh_look(FILE *talk, const fm_plan *plan, const char *worker, fm_erro
     fm_status status = make_files(&state);
     if (status != FM_OK)
         return status;
-    launcher_open(&state.launcher);
-    status = look_at_all(&state, plan);
-    launcher_close(&state.launcher);
+    status = stop_signals_open(&state.signals, err);
+    if (status == FM_OK) {
+        status = look_at_all(&state, plan);
+        stop_signals_close(&state.signals);
+    }
     remove_files(&state);
     return status;
 }

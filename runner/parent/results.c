@@ -93,6 +93,8 @@ void results_destroy(fm_results *results)
         fm_case_result *result = &results->cases[i];
         json_decref(result->metrics);
         json_decref(result->modelled);
+        for (uint32_t j = 0; result->launches != NULL && j < results->plan->launches; j++)
+            free(result->launches[j].death);
         free(result->launches);
         free(result->samples);
         free(result->row);

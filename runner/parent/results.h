@@ -24,7 +24,7 @@ typedef struct fm_kept_sample {
 } fm_kept_sample;
 
 typedef struct fm_launch_state {
-    uint32_t begins; /* since the last end or stop */
+    char *death; /* how its worker died the first time; NULL: it has not */
     bool is_done;
 } fm_launch_state;
 

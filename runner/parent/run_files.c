@@ -52,6 +52,16 @@ fm_status run_make_folders(const run_state *run, fm_error *err)
     return status;
 }
 
+void run_remove_images(const run_state *run, size_t case_index)
+{
+    static const char *const endings[] = { ".rgba32f", ".truth.rgba32f" };
+    char path[FM_PATH_MAX_BYTES];
+    for (size_t i = 0; i < sizeof endings / sizeof endings[0]; i++)
+        if (run_path(path, run, "images", run->plan->cases[case_index].id, endings[i], NULL) ==
+            FM_OK)
+            unlink(path);
+}
+
 void run_remove_truths(const run_state *run)
 {
     static const char *const suffixes[] = { ".truth", ".truth.hull" };

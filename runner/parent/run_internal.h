@@ -1,5 +1,6 @@
 /* What the files behind run.h share; nobody else includes it. From below:
  *   run_files.c   where files of a run lie
+ *   run_attempt.c a worker, asked again where it died
  *   run_step.c    one launch, or the capture of one truth, from request to row
  *   run.c         a run: what is left of it, its rounds, its end */
 #ifndef FM_RUN_INTERNAL_H
@@ -11,6 +12,7 @@
 #include "results.h"
 #include "run.h"
 #include "truth_jobs.h"
+#include "worker/protocol.h"
 
 typedef struct run_state {
     const fm_plan *plan;
@@ -19,9 +21,11 @@ typedef struct run_state {
     fm_journal *journal;
     fm_results *results;
     fm_truth_jobs truths;
-    fm_launcher launcher;
+    fm_stop_signals signals;
     fm_progress progress;
-    uint32_t *order; /* [plan->count]: of the running round */
+    uint32_t *order;   /* [plan->count]: of the running round */
+    uint32_t *forgets; /* [plan->count]: of the case, in the rest of the journal */
+    uint32_t forgotten;
     int stop_signal;
     bool is_damaged;
 } run_state;
@@ -32,8 +36,27 @@ fm_status run_path(char path[FM_PATH_MAX_BYTES], const run_state *run, const cha
                    const char *name, const char *ending, fm_error *err);
 /* FM_INVALID: a folder cannot be made, or holds results that no journal belongs to. */
 fm_status run_make_folders(const run_state *run, fm_error *err);
+/* Those of a case that is measured anew. */
+void run_remove_images(const run_state *run, size_t case_index);
 /* What only running launches need. Folders that hold more stay. */
 void run_remove_truths(const run_state *run);
+
+/* run_attempt.c */
+#define RUN_NO_CASE SIZE_MAX
+typedef struct run_attempt {
+    const char *name;    /* of its files in DIRECTORY/work */
+    const char *current; /* for people */
+    const fm_request *request;
+    size_t case_index; /* RUN_NO_CASE: a truth's, of which the journal knows nothing */
+    uint32_t launch;
+} run_attempt;
+/* Asks a worker, and asks once more where it died, or where a lock gave up on a busy machine: run.h
+ * says who is blamed for what. *death: how it died the first time, perhaps under an earlier parent;
+ * NULL: it has not; owned by the caller. FM_OK: outcome->kind is no FM_LAUNCH_KILLED, and the
+ * result of a second death tells of both. FM_IO: a fault of the run's own files, or the worker was
+ * killed twice from outside; then there is no result. */
+fm_status run_attempt_launch(fm_launch_outcome *outcome, run_state *run, const run_attempt *attempt,
+                             char **death, fm_error *err);
 
 /* run_step.c */
 /* The case is to be launched, and not finished. */

@@ -1,12 +1,10 @@
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "run_internal.h"
 #include "worker/protocol.h"
-
-enum { TIMEOUT_DEFAULT_S = 600 };
 
 bool run_is_pending(const run_state *run, size_t case_index)
 {
@@ -24,62 +22,6 @@ fm_status run_end_launch(run_state *run, size_t case_index, uint32_t launch, jso
     if (status == FM_OK && results_is_finished(run->results, case_index))
         status = results_write_summary(run->results, err);
     return status;
-}
-
-static void tick(void *context)
-{
-    progress_tick(context);
-}
-
-/* Once a file, whichever worker is the first to read it. */
-static void tell_mesh(run_state *run, const json_t *answer)
-{
-    const json_t *mesh = answer_mesh(answer);
-    if (results_take_mesh(run->results, answer))
-        progress_tell(&run->progress, answer_mesh_file(mesh), answer_mesh_told(mesh));
-}
-
-/* Writes the request, launches, and cleans up after what went well. */
-static fm_status ask(fm_launch_outcome *outcome, run_state *run, const char *name,
-                     const fm_request *request, fm_error *err)
-{
-    char request_path[FM_PATH_MAX_BYTES], result_path[FM_PATH_MAX_BYTES],
-        log_path[FM_PATH_MAX_BYTES];
-    struct stat log;
-    *outcome = (fm_launch_outcome){ 0 };
-    fm_status status = run_path(request_path, run, "work", name, ".request.json", err);
-    if (status == FM_OK)
-        status = run_path(result_path, run, "work", name, ".result.json", err);
-    if (status == FM_OK)
-        status = run_path(log_path, run, "work", name, ".log", err);
-    if (status == FM_OK)
-        status = request_write(request_path, request, err);
-    if (status != FM_OK)
-        return status;
-    const fm_launch_desc desc = {
-        .worker = run->desc->worker,
-        .request = request_path,
-        .result = result_path,
-        .log = log_path,
-        .timeout_s = run->desc->timeout_s != 0 ? run->desc->timeout_s : TIMEOUT_DEFAULT_S,
-        .memory_bytes = run->desc->memory_bytes,
-        .input = settings_file(request->settings),
-        .tick = tick,
-        .context = &run->progress,
-    };
-    status = launch_worker(outcome, &run->launcher, &desc, err);
-    if (status != FM_OK)
-        return status;
-    run->stop_signal = outcome->stop_signal;
-    if (!outcome->is_interrupted)
-        tell_mesh(run, outcome->result);
-    if (outcome->is_interrupted || answer_status(outcome->result) <= FM_CASE_WRONG_IMAGE) {
-        unlink(request_path);
-        unlink(result_path);
-    }
-    if (stat(log_path, &log) == 0 && log.st_size == 0)
-        unlink(log_path);
-    return FM_OK;
 }
 
 /* All cases of a truth that cannot be had end as it did. */
@@ -150,8 +92,13 @@ fm_status run_capture_truth(run_state *run, size_t job, fm_error *err)
     }
     fm_request request = request_for(run, planned, job, path);
     request.is_truth_job = true;
-    status = ask(&outcome, run, name, &request, err);
-    if (status != FM_OK || outcome.is_interrupted)
+    const run_attempt attempt = {
+        .name = name, .current = current, .request = &request, .case_index = RUN_NO_CASE
+    };
+    char *death = NULL;
+    status = run_attempt_launch(&outcome, run, &attempt, &death, err);
+    free(death);
+    if (status != FM_OK || outcome.kind == FM_LAUNCH_INTERRUPTED)
         return status;
     if (answer_is_runs_fault(outcome.result))
         status = fail_run(outcome.result, current, err);
@@ -186,17 +133,24 @@ fm_status run_measure(run_state *run, size_t case_index, uint32_t launch, fm_err
     request.image = image;
     request.check = launch == 0;
     request.launch = launch;
-    status = ask(&outcome, run, planned->id, &request, err);
-    if (status != FM_OK) { /* it did not begin, and is not to be counted as if it had */
+    const run_attempt attempt = { .name = planned->id,
+                                  .current = current,
+                                  .request = &request,
+                                  .case_index = case_index,
+                                  .launch = launch };
+    char **death = &run->results->cases[case_index].launches[launch].death;
+    status = run_attempt_launch(&outcome, run, &attempt, death, err);
+    if (status != FM_OK) { /* whoever reads the journal is told that it did not finish */
         journal_write(run->journal, FM_JOURNAL_STOP, planned->id, launch, NULL, NULL);
         return status;
     }
-    const bool is_unfinished = outcome.is_interrupted || answer_is_runs_fault(outcome.result);
+    const bool is_interrupted = outcome.kind == FM_LAUNCH_INTERRUPTED;
+    const bool is_unfinished = is_interrupted || answer_is_runs_fault(outcome.result);
     if (is_unfinished)
         status = journal_write(run->journal, FM_JOURNAL_STOP, planned->id, launch, NULL, err);
     else
         status = run_end_launch(run, case_index, launch, outcome.result, err);
-    if (outcome.is_interrupted)
+    if (is_interrupted)
         return status;
     if (status == FM_OK && is_unfinished) {
         status = fail_run(outcome.result, current, err);

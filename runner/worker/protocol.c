@@ -169,6 +169,11 @@ void answer_set_truth_unusable(json_t *answer)
     json_object_set_new(answer, "is_truth_unusable", json_true());
 }
 
+void answer_set_starved(json_t *answer)
+{
+    json_object_set_new(answer, "is_starved", json_true());
+}
+
 void answer_set_image_hashes(json_t *answer, const uint64_t *hashes, size_t count)
 {
     json_t *list = json_array();
@@ -252,6 +257,16 @@ json_t *answer_make_runs_fault(const char *message)
     return answer;
 }
 
+void answer_add_note(json_t *answer, const char *note)
+{
+    const char *message = answer_message(answer);
+    fm_text all = { 0 };
+    text_add(&all, "%s%s%s", message, message[0] != '\0' ? "; " : "", note);
+    if (!all.failed)
+        json_object_set_new(answer, "message", any_text(all.bytes));
+    text_free(&all);
+}
+
 static const char *sample_fault(const json_t *sample)
 {
     const json_t *frame = json_object_get(sample, "frame");
@@ -324,6 +339,11 @@ bool answer_is_runs_fault(const json_t *answer)
 bool answer_is_truth_unusable(const json_t *answer)
 {
     return is_set(answer, "is_truth_unusable");
+}
+
+bool answer_is_starved(const json_t *answer)
+{
+    return is_set(answer, "is_starved");
 }
 
 const char *answer_message(const json_t *answer)

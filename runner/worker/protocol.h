@@ -21,12 +21,12 @@
  *     "is_truth_unusable": false,           true, with is_runs_fault: the truth file is to be made
  * anew "device_name": "...", "device_driver": "...", "device_api": "...", "has_gpu_clock": false,
  * "is_software": true, "modelled": { "scene": [...], "passes": [...], "buffers": [...] },    names
- *     "image_hashes": ["16 hex digits"],    of all timed frames, each once; a sequence has one
- *     "mesh": { "file": "...", "told": "a sentence", "triangles": 12, ... },   what a scene's file
- *                                           held, not of launches without "check"
- *     "metrics": { "n": 128, ... },         one number a case, by its metric's name
- *     "launch": { "timed_s": 0.21, ... },   one number a launch, the same
- *     "samples": [ { "frame": 0, "metric": "store_ms", "value": 1.25, "unit": "ms" }, ... ] }
+ *     "is_starved": false,                  true, with wrong_image: a lock gave up, perhaps since
+ * the machine is busy "image_hashes": ["16 hex digits"],    of all timed frames, each once; a
+ * sequence has one "mesh": { "file": "...", "told": "a sentence", "triangles": 12, ... },   what a
+ * scene's file held, not of launches without "check" "metrics": { "n": 128, ... },         one
+ * number a case, by its metric's name "launch": { "timed_s": 0.21, ... },   one number a launch,
+ * the same "samples": [ { "frame": 0, "metric": "store_ms", "value": 1.25, "unit": "ms" }, ... ] }
  *
  * Names, units and meanings of metrics are in model/metrics.h. With "check" the answer has the
  * metrics that come from comparing with truth; with timers=frame it has no times of passes. A
@@ -90,6 +90,9 @@ void answer_set_verdict(json_t *answer, fm_case_status status, const char *messa
 void answer_set_runs_fault(json_t *answer, const char *message);
 /* Beside that: it was the truth file, which is damaged or cannot be read. */
 void answer_set_truth_unusable(json_t *answer);
+/* Beside wrong_image: a lock gave up on a software rasteriser, which a busy machine can bring
+ * about. */
+void answer_set_starved(json_t *answer);
 void answer_set_image_hashes(json_t *answer, const uint64_t *hashes, size_t count);
 /* Takes the references. */
 void answer_set_measured(json_t *answer, json_t *metrics, json_t *samples);
@@ -103,6 +106,8 @@ void answer_add_sample_named(json_t *samples, uint32_t frame, const char *metric
 json_t *answer_make(fm_case_status status, const char *message);
 /* The same where the run is to blame. */
 json_t *answer_make_runs_fault(const char *message);
+/* Adds to the message: "; NOTE". */
+void answer_add_note(json_t *answer, const char *note);
 
 /* Reading an answer: the parent's side. */
 
@@ -112,6 +117,7 @@ const char *answer_fault(const json_t *answer);
 fm_case_status answer_status(const json_t *answer);
 bool answer_is_runs_fault(const json_t *answer);
 bool answer_is_truth_unusable(const json_t *answer);
+bool answer_is_starved(const json_t *answer);
 const char *answer_message(const json_t *answer);  /* "": there is none */
 json_t *answer_image_hashes(const json_t *answer); /* borrowed; NULL: none */
 json_t *answer_metrics(const json_t *answer);      /* the same */

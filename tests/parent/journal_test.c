@@ -18,7 +18,7 @@ typedef struct heard {
 static fm_status hear(void *context, fm_journal_event event, const char *case_id, uint32_t launch,
                       const json_t *result, fm_error *err)
 {
-    static const char *const names[] = { "begin", "end", "stop" };
+    static const char *const names[] = { "begin", "end", "died", "stop", "forget" };
     heard *all = context;
     const size_t length = strlen(all->text);
     (void)err;
@@ -66,10 +66,13 @@ static void journal_tells_again_what_was_written(void **state)
     fake_open(&fake, NO_IDS, 1);
     fm_journal *journal = opened(&fake);
     write_case(journal, "a");
+    json_t *death = json_pack("{s:s}", "status", "crash");
+    assert_int_equal(journal_write(journal, FM_JOURNAL_DIED, "b", 3, death, NULL), FM_OK);
+    json_decref(death);
     assert_int_equal(journal_write(journal, FM_JOURNAL_STOP, "b", 3, NULL, NULL), FM_OK);
     journal_close(journal);
     replayed(&all, &fake);
-    assert_string_equal(all.text, "begin a 0|end a 0 ok|stop b 3|");
+    assert_string_equal(all.text, "begin a 0|end a 0 ok|died b 3 crash|stop b 3|");
     fake_close(&fake);
 }
 
@@ -105,6 +108,24 @@ static void journal_cuts_a_torn_last_line_off(void **state)
     assert_string_equal(all.text, "begin a 0|end a 0 ok|");
     replayed(&again, &fake); /* what follows is not glued to the torn piece */
     assert_string_equal(again.text, all.text);
+    fake_close(&fake);
+}
+
+static void journal_can_tell_of_what_is_forgotten_alone(void **state)
+{
+    (void)state;
+    fake_plan fake;
+    heard all = { "" };
+    bool is_damaged = false;
+    const fm_journal_reader reader = { .line = hear, .only_forgets = true, .context = &all };
+    fake_open(&fake, NO_IDS, 1);
+    fm_journal *journal = opened(&fake);
+    write_case(journal, "a");
+    assert_int_equal(journal_write(journal, FM_JOURNAL_FORGET, "a", 0, NULL, NULL), FM_OK);
+    write_case(journal, "a");
+    assert_int_equal(journal_replay(journal, &reader, &is_damaged, NULL), FM_OK);
+    assert_string_equal(all.text, "forget a 0|");
+    journal_close(journal);
     fake_close(&fake);
 }
 
@@ -192,6 +213,7 @@ int main(void)
         cmocka_unit_test(journal_tells_again_what_was_written),
         cmocka_unit_test(journal_keeps_the_runs_id_and_start),
         cmocka_unit_test(journal_cuts_a_torn_last_line_off),
+        cmocka_unit_test(journal_can_tell_of_what_is_forgotten_alone),
         cmocka_unit_test(journal_starts_anew_after_a_torn_first_line),
         cmocka_unit_test(journal_reports_damage_with_its_line),
         cmocka_unit_test(journal_refuses_foreign_files_and_leaves_them),
