@@ -1,6 +1,6 @@
 # The rooms of fragmark, in order: each may use only rooms that stand before it in its list.
 # tests/rooms_test.sh holds the objects' symbols and the #include lines against this order.
-set(FM_RUNNER_ROOMS base model mesh scene generators truth plugin device vulkan osmesa dummy simulator stage
+set(FM_RUNNER_ROOMS base code model mesh scene generators truth plugin device vulkan osmesa dummy simulator stage
   instance capture worker plan parent cli)
 set(FM_REPORT_ROOMS base model read claims draw page)
 
