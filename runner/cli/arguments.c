@@ -15,7 +15,8 @@ enum {
     KEY_NO_IMAGES,
     KEY_VALIDATION,
     KEY_NO_TIMERS,
-    KEY_NO_REPORT
+    KEY_NO_REPORT,
+    KEY_FRESH
 };
 
 static const struct argp_option selection_options[] = {
@@ -36,6 +37,10 @@ static const struct argp_option running_options[] = {
     { "output", 'o', "DIR", 0, "folder of the results; the same one continues a run; out-UTC", 0 },
     { "timeout", KEY_TIMEOUT, "S", 0, "seconds that one launch may take; 600", 0 },
     { "memory-limit", KEY_MEMORY, "BYTES", 0, "address space of one launch: 4G, 512M; none", 0 },
+    { "fresh", KEY_FRESH, NULL, 0,
+      "measure rows anew whose program, driver, plugin or shaders changed since they were begun; "
+      "without it such a run stops with exit code 7",
+      0 },
     { "no-images", KEY_NO_IMAGES, NULL, 0, "keep no images", 0 },
     { "no-report", KEY_NO_REPORT, NULL, 0, "CSV files only; `fragmark report DIR` draws later", 0 },
     { "validation", KEY_VALIDATION, NULL, 0, "open devices with API validation (times suffer)", 0 },
@@ -127,6 +132,9 @@ static error_t parse_running(int key, char *text, struct argp_state *state)
         return 0;
     case KEY_NO_IMAGES:
         arguments->no_images = true;
+        return 0;
+    case KEY_FRESH:
+        arguments->fresh = true;
         return 0;
     case KEY_NO_REPORT:
         arguments->no_report = true;

@@ -25,6 +25,7 @@ static const char *const event_name[] = {
     [FM_JOURNAL_BEGIN] = "begin",
     [FM_JOURNAL_END] = "end",
     [FM_JOURNAL_STOP] = "stop",
+    [FM_JOURNAL_FORGET] = "forget",
 };
 _Static_assert(sizeof event_name / sizeof event_name[0] == FM_JOURNAL_EVENT_COUNT, "one each");
 
@@ -194,11 +195,13 @@ static const char *replay_line(const char *text, const fm_journal_reader *reader
     json_t *line = json_loads(text, 0, NULL);
     const json_t *result = json_object_get(line, "result");
     int event = FM_JOURNAL_EVENT_COUNT;
-    if (json_unpack(line, "{s:s, s:s, s:i}", "event", &name, "case", &case_id, "launch", &launch) ==
+    if (json_unpack(line, "{s:s, s:s, s?i}", "event", &name, "case", &case_id, "launch", &launch) ==
         0)
         for (event = 0; event < FM_JOURNAL_EVENT_COUNT; event++)
             if (strcmp(name, event_name[event]) == 0)
                 break;
+    if (event == FM_JOURNAL_FORGET)
+        launch = 0;
     if (event == FM_JOURNAL_EVENT_COUNT || launch < 0 ||
         (event == FM_JOURNAL_END) != json_is_object(result))
         why = "not a line that fragmark writes";
@@ -242,8 +245,9 @@ out:
 fm_status journal_write(fm_journal *journal, fm_journal_event event, const char *case_id,
                         uint32_t launch, json_t *result, fm_error *err)
 {
-    json_t *line = json_pack("{s:s, s:s, s:i}", "event", event_name[event], "case", case_id,
-                             "launch", (int)launch);
+    json_t *line = json_pack("{s:s, s:s}", "event", event_name[event], "case", case_id);
+    if (line != NULL && event != FM_JOURNAL_FORGET)
+        json_object_set_new(line, "launch", json_integer((json_int_t)launch));
     if (line != NULL && result != NULL)
         json_object_set(line, "result", result);
     const fm_status status = write_line(journal, line, err);

@@ -3,6 +3,7 @@
  *   {"event":"begin","case":ID,"launch":0}                   before a launch
  *   {"event":"end","case":ID,"launch":0,"result":{...}}      after it
  *   {"event":"stop","case":ID,"launch":0}                    the user stopped it: never began
+ *   {"event":"forget","case":ID}                             what was measured of it so far is void
  * The file is locked while it is open, so that two runs cannot share a directory. */
 #ifndef FM_JOURNAL_H
 #define FM_JOURNAL_H
@@ -19,6 +20,7 @@ typedef enum fm_journal_event {
     FM_JOURNAL_BEGIN,
     FM_JOURNAL_END,
     FM_JOURNAL_STOP,
+    FM_JOURNAL_FORGET, /* of a case: its launch is 0 */
     FM_JOURNAL_EVENT_COUNT
 } fm_journal_event;
 
@@ -35,7 +37,7 @@ typedef struct fm_journal_reader {
  * *is_damaged tells the first two. A torn last line, which a killed run leaves, is cut off. */
 fm_status journal_open(fm_journal **journal, const char *directory, const char *plan_hash,
                        bool *is_damaged, fm_error *err);
-/* Tells the reader all launches of the run so far; once, before the first journal_write. */
+/* Tells the reader all that is written so far. */
 fm_status journal_replay(fm_journal *journal, const fm_journal_reader *reader, bool *is_damaged,
                          fm_error *err);
 void journal_close(fm_journal *journal);

@@ -29,16 +29,27 @@ static void plan_hash(char hash[17], const fm_plan *plan, const fm_run_desc *des
     XXH3_freeState(state);
 }
 
+bool run_find_case(size_t *case_index, const run_state *run, const char *id)
+{
+    size_t i = 0;
+    while (i < run->plan->count && strcmp(run->plan->cases[i].id, id) != 0)
+        i++;
+    *case_index = i;
+    return i < run->plan->count;
+}
+
 static fm_status replay(void *context, fm_journal_event event, const char *case_id, uint32_t launch,
                         const json_t *result, fm_error *err)
 {
     run_state *run = context;
-    size_t i = 0;
-    while (i < run->plan->count && strcmp(run->plan->cases[i].id, case_id) != 0)
-        i++;
-    if (i == run->plan->count || launch >= plan_case_launches(run->plan, i))
+    size_t i;
+    if (!run_find_case(&i, run, case_id) || launch >= plan_case_launches(run->plan, i))
         return fm_fail(err, FM_INVALID, "case %.32s, launch %u is not of this plan", case_id,
                        launch);
+    if (run->codes.rows[i].forgets > 0) { /* what stands before the last of them is void */
+        run->codes.rows[i].forgets -= event == FM_JOURNAL_FORGET;
+        return FM_OK;
+    }
     fm_launch_state *state = &run->results->cases[i].launches[launch];
     switch (event) {
     case FM_JOURNAL_BEGIN:
@@ -51,6 +62,7 @@ static fm_status replay(void *context, fm_journal_event event, const char *case_
         results_take_mesh(run->results, result);
         return state->is_done ? fm_fail(err, FM_INVALID, "launch %u ended twice", launch)
                               : results_add(run->results, i, launch, result, err);
+    case FM_JOURNAL_FORGET:
     case FM_JOURNAL_EVENT_COUNT:
         break;
     }
@@ -83,6 +95,8 @@ static fm_status resume(run_state *run, fm_error *err)
     plan_hash(hash, run->plan, run->desc);
     fm_status status =
         journal_open(&run->journal, run->desc->directory, hash, &run->is_damaged, err);
+    if (status == FM_OK)
+        status = run_check_codes(run, err);
     if (status == FM_OK)
         status = results_create(&run->results, run->plan, run->plugins, run->desc->directory,
                                 journal_run_id(run->journal), err);
@@ -235,12 +249,11 @@ fm_status run_cases(fm_run_result *result, const fm_plan *plan, const fm_plugin_
     run.order = calloc(plan->count > 0 ? plan->count : 1, sizeof *run.order);
     if (run.order == NULL)
         return fm_fail(err, FM_NO_MEMORY, "no memory for %zu cases", plan->count);
+    launcher_open(&run.launcher);
     status = prepare(&run, err);
-    if (status == FM_OK) {
-        launcher_open(&run.launcher);
+    if (status == FM_OK)
         status = run_launches(&run, err);
-        launcher_close(&run.launcher);
-    }
+    launcher_close(&run.launcher);
     if (status == FM_OK)
         status = results_end(run.results, err);
     if (status == FM_OK)
@@ -252,8 +265,11 @@ fm_status run_cases(fm_run_result *result, const fm_plan *plan, const fm_plugin_
     if (run.results != NULL && !run.is_damaged)
         count_outcomes(result, &run);
     result->is_damaged = run.is_damaged;
+    result->is_other_code = run.is_other_code;
     journal_close(run.journal);
     results_destroy(run.results);
+    codes_free(&run.codes);
+    json_decref(run.drivers);
     truth_jobs_free(&run.truths);
     free(run.order);
     return status;

@@ -1,5 +1,6 @@
 /* What the files behind run.h share; nobody else includes it. From below:
  *   run_files.c   where files of a run lie
+ *   run_code.c    whether rows and truths were made by the code that is here now
  *   run_step.c    one launch, or the capture of one truth, from request to row
  *   run.c         a run: what is left of it, its rounds, its end */
 #ifndef FM_RUN_INTERNAL_H
@@ -11,6 +12,7 @@
 #include "results.h"
 #include "run.h"
 #include "truth_jobs.h"
+#include "worker/protocol.h"
 
 typedef struct run_state {
     const fm_plan *plan;
@@ -19,11 +21,15 @@ typedef struct run_state {
     fm_journal *journal;
     fm_results *results;
     fm_truth_jobs truths;
+    fm_codes codes;   /* of the journal, as it was found; forgets of what it is to forget */
+    json_t *drivers;  /* by device as cases name it: hash of its driver now, for those that were
+                         opened */
+    uint64_t program; /* hash of what workers execute */
     fm_launcher launcher;
     fm_progress progress;
     uint32_t *order; /* [plan->count]: of the running round */
     int stop_signal;
-    bool is_damaged;
+    bool is_damaged, is_other_code;
 } run_state;
 
 /* run_files.c */
@@ -34,8 +40,34 @@ fm_status run_path(char path[FM_PATH_MAX_BYTES], const run_state *run, const cha
 fm_status run_make_folders(const run_state *run, fm_error *err);
 /* What only running launches need. Folders that hold more stay. */
 void run_remove_truths(const run_state *run);
+/* Those two folders, where they are empty. */
+void run_remove_folders(const run_state *run);
+
+/* run_code.c */
+/* Reads what rows of the journal were measured by, and compares it with what is here now: refuses
+ * with is_other_code, or with is_fresh writes into the journal that they are to be forgotten. */
+fm_status run_check_codes(run_state *run, fm_error *err);
+/* Puts into the answer what it may have read, if it says nothing, and compares it with what the row
+ * was measured by. FM_INVALID: is_other_code. */
+fm_status run_fit_code(run_state *run, size_t case_index, json_t *answer, fm_error *err);
+/* Whether the truth at path is there, and was captured by what is here now. */
+fm_status run_find_truth(bool *is_there, run_state *run, size_t job, const char *path,
+                         fm_error *err);
+/* Keeps beside a truth what captured it. */
+fm_status run_keep_truth_code(const run_state *run, const char *path, const json_t *answer,
+                              fm_error *err);
 
 /* run_step.c */
+/* The path of the plugin that measures a case; "": it was refused. */
+const char *run_plugin_path(const run_state *run, const fm_case *planned);
+/* What a truth job and the launches that are compared with it are asked alike. */
+fm_request run_request_for(const run_state *run, const fm_case *planned, size_t job,
+                           const char *truth);
+/* Writes the request under DIRECTORY/work/NAME, launches, and cleans up after what went well. */
+fm_status run_ask(fm_launch_outcome *outcome, run_state *run, const char *name,
+                  const fm_request *request, fm_error *err);
+/* The number of a case; false: the plan has none of this id. */
+bool run_find_case(size_t *case_index, const run_state *run, const char *id);
 /* The case is to be launched, and not finished. */
 bool run_is_pending(const run_state *run, size_t case_index);
 /* Writes the end of a launch into journal, tables and, if it was the case's last, the summary. */
