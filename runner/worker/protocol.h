@@ -9,7 +9,7 @@
  *     "device": "vulkan:0", "validation": false, "no_timers": false,
  *     "feed": "raster",
  *     "settings": { "k": "8", ... },        every key of fm_keys, as text
- *     "options": { "layout": "layer" },     the method's own, only those given
+ *     "options": { "layout": "layer" },     the method's own, each with its value
  *     "truth": "path of the truth file", "launch": 0,
  *     "check": true,                        capture and compare all fragments
  *     "image": "path to write the image to, or empty" }
@@ -58,7 +58,7 @@ typedef struct fm_request {
     const char *plugin, *floor, *common; /* paths; floor "": a feed without times */
     const char *device, *feed;           /* as the case names them */
     const fm_settings *settings;
-    const fm_choice *choices; /* of the method's options: those given */
+    const fm_choice *choices; /* of the method's options; its first value for what is missing */
     size_t choice_count;
     const char *truth; /* path of the truth file */
     const char *image; /* path of the image to be written; "": none */
