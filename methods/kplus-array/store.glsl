@@ -1,3 +1,4 @@
 #include "common/array.glsl"
 #include "kplus-array/max_array.glsl"
 #include "common/keep_nearest.glsl"
+// x

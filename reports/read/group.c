@@ -17,8 +17,9 @@ bool group_same_series(const fm_case_row *a, const fm_case_row *b)
 
 void group_series_title(char title[96], const fm_case_row *result, const fm_text_list *without)
 {
-    char options[FM_OPTIONS_TEXT_BYTES];
-    options_select(options, result->options, FM_OPTIONS_OWN, without);
+    char options[FM_OPTIONS_TEXT_BYTES], unusual[FM_OPTIONS_TEXT_BYTES];
+    options_drop(unusual, result->options, result->look.defaults);
+    options_select(options, unusual, FM_OPTIONS_OWN, without);
     if (options[0] == '\0')
         snprintf(title, 96, "%.95s", result->look.title);
     else
@@ -38,6 +39,17 @@ bool group_uses_k(const fm_group *group, const fm_case_row *result)
     return !(alone && several);
 }
 
+/* The usual one first, then counters=2 before counters=10. */
+static int compare_options(const fm_case_row *a, const fm_case_row *b)
+{
+    char of_a[FM_OPTIONS_TEXT_BYTES], of_b[FM_OPTIONS_TEXT_BYTES];
+    if (strcmp(a->options, b->options) == 0)
+        return 0;
+    options_drop(of_a, a->options, a->look.defaults);
+    options_drop(of_b, b->options, b->look.defaults);
+    return strverscmp(of_a, of_b);
+}
+
 static int compare_cases(const void *a, const void *b)
 {
     const fm_case_row *x = *(const fm_case_row *const *)a;
@@ -48,7 +60,7 @@ static int compare_cases(const void *a, const void *b)
     if (order == 0)
         order = strcmp(x->method, y->method);
     if (order == 0)
-        order = strverscmp(x->options, y->options); /* counters=2 before counters=10 */
+        order = compare_options(x, y);
     if (order == 0)
         order = (x->k > y->k) - (x->k < y->k);
     return order != 0 ? order : (x > y) - (x < y);

@@ -35,8 +35,8 @@ fm_status groups_make(fm_groups *groups, const fm_result_files *results, const f
                       fm_error *err);
 void groups_free(fm_groups *groups);
 
-/* "K+B-Array", with the options that tell two series of one method apart, but for those of
- * `without`, which may be NULL. */
+/* "K+B-Array", with the options that are not the method's defaults, but for those of `without`,
+ * which may be NULL. */
 void group_series_title(char title[96], const fm_case_row *result, const fm_text_list *without);
 /* Procedural scenes with the printed properties of models that the papers do not share. */
 bool group_is_stand_in(const char *scene);

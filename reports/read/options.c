@@ -65,6 +65,22 @@ bool options_are_same(const char *a, const char *b, fm_options_sort sort,
     }
 }
 
+void options_drop(char kept[FM_OPTIONS_TEXT_BYTES], const char *options, const char *defaults)
+{
+    pair one, usual;
+    size_t used = 0;
+    kept[0] = '\0';
+    while (next_pair(&one, &options)) {
+        bool is_default = false;
+        for (const char *rest = defaults != NULL ? defaults : ""; next_pair(&usual, &rest);)
+            is_default |=
+                usual.length == one.length && strncmp(usual.text, one.text, one.length) == 0;
+        if (!is_default && used + one.length + 2 < FM_OPTIONS_TEXT_BYTES)
+            used += (size_t)snprintf(kept + used, FM_OPTIONS_TEXT_BYTES - used, "%s%.*s",
+                                     used > 0 ? " " : "", (int)one.length, one.text);
+    }
+}
+
 void options_select(char chosen[FM_OPTIONS_TEXT_BYTES], const char *options, fm_options_sort sort,
                     const fm_text_list *without)
 {

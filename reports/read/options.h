@@ -19,6 +19,10 @@ void options_value(char value[FM_OPTION_VALUE_BYTES], const char *options, const
 bool options_are_same(const char *a, const char *b, fm_options_sort sort,
                       const fm_text_list *without);
 
+/* Those options alone that are not in `defaults`, a text of the same form. NULL: none is a default.
+ */
+void options_drop(char kept[FM_OPTIONS_TEXT_BYTES], const char *options, const char *defaults);
+
 /* Those options alone, with blanks between them; options that no longer fit are left out. */
 void options_select(char chosen[FM_OPTIONS_TEXT_BYTES], const char *options, fm_options_sort sort,
                     const fm_text_list *without);

@@ -35,6 +35,7 @@ static void read_method(fm_method_info *info, const char *id, const json_t *meth
         .title = field(method, "title"),
         .citation = field(method, "citation"),
         .version = field(method, "version"),
+        .defaults = field(method, "defaults"),
         .family = family_parse(field(method, "family")),
         .marker = marker_parse(field(method, "marker")),
         .is_dashed = json_is_true(json_object_get(method, "dashed")),

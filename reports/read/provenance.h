@@ -14,7 +14,8 @@
 /* A method of the run, as its descriptor described it. */
 typedef struct fm_method_info {
     const char *id, *title, *citation, *version; /* title: the id where it has none */
-    fm_family family;                            /* gives the colour in charts */
+    const char *defaults; /* of its options, as column `options` spells them; "": not known */
+    fm_family family;     /* gives the colour in charts */
     fm_marker marker;
     bool is_dashed;
     bool is_racy, is_exact, is_approximate; /* traits */

@@ -280,7 +280,7 @@ static fm_status write_file(truth_run *capture, const char *partial)
 }
 
 fm_status truth_capture(const char *path, fm_device *device, const fm_scene *scene, uint32_t feed,
-                        const char *common_folder, fm_error *err)
+                        const fm_shader_folders *folders, fm_error *err)
 {
     char partial[FM_PATH_MAX_BYTES + 16];
     const bool by_host = feed == FM_FEED_TRIANGLES;
@@ -288,7 +288,7 @@ fm_status truth_capture(const char *path, fm_device *device, const fm_scene *sce
     const bool is_flat = layers_are_flat(&scene->settings);
     truth_run capture = { .device = device,
                           .scene = scene,
-                          .folders = { common_folder, common_folder },
+                          .folders = *folders,
                           .pixels = (uint64_t)scene->width_px * scene->height_px,
                           .keeps_arrival = !is_flat && !by_host,
                           .is_known = is_flat && !by_host && !layers_may_tie(&scene->settings),

@@ -18,7 +18,8 @@ enum {
     KEY_VALIDATION,
     KEY_NO_TIMERS,
     KEY_NO_REPORT,
-    KEY_RETRY
+    KEY_RETRY,
+    KEY_FRESH,
 };
 
 static const struct argp_option selection_options[] = {
@@ -41,6 +42,10 @@ static const struct argp_option running_options[] = {
     { "memory-limit", KEY_MEMORY, "BYTES", 0, "address space of one launch: 4G, 512M; none", 0 },
     { "retry", KEY_RETRY, "STATUS,...", 0,
       "rows of an earlier run that have one of these statuses are measured anew: crash, timeout",
+      0 },
+    { "fresh", KEY_FRESH, NULL, 0,
+      "measure rows anew whose program, driver, plugin or shaders changed since they were begun; "
+      "without it such a run stops with exit code 7",
       0 },
     { "no-images", KEY_NO_IMAGES, NULL, 0, "keep no images", 0 },
     { "no-report", KEY_NO_REPORT, NULL, 0, "CSV files only; `fragmark report DIR` draws later", 0 },
@@ -169,6 +174,9 @@ static error_t parse_running(int key, char *text, struct argp_state *state)
         return 0;
     case KEY_NO_IMAGES:
         arguments->no_images = true;
+        return 0;
+    case KEY_FRESH:
+        arguments->fresh = true;
         return 0;
     case KEY_NO_REPORT:
         arguments->no_report = true;

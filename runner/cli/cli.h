@@ -23,6 +23,7 @@ enum {
     CLI_NOTHING = 3,     /* nothing could be measured */
     CLI_SOME_FAILED = 4, /* crash, timeout, out of memory, refused plugin, wrong image */
     CLI_INCOMPLETE = 5,  /* the run's own files failed, a full disk say: it can be continued */
+    CLI_OTHER_CODE = 7,  /* rows were begun with other code than is here now */
     CLI_DAMAGED = 8,     /* a damaged or foreign file */
     CLI_SIGNAL = 128,    /* + its number: interrupted, can be continued */
 };
@@ -31,6 +32,7 @@ enum {
     "error, nothing was run; 3 nothing could be measured; "                                        \
     "4 some cases failed (crash, timeout, out of memory, refused plugin, wrong image of an exact " \
     "method); 5 incomplete: the run's own files failed, and the same command continues it; "       \
+    "7 other code (program, driver, plugin or shaders) than rows were begun with; "                \
     "8 damaged or foreign file; 130, 143 interrupted: the same command continues it."
 
 /* What main.c hands to every subcommand. */
@@ -65,7 +67,7 @@ typedef struct fm_arguments {
     uint32_t timeout_s;
     uint64_t memory_bytes, seed;
     uint32_t retried; /* statuses, as bits */
-    bool has_seed, no_images, no_report, validation, no_timers, quiet, json, smoke, large;
+    bool has_seed, no_images, no_report, validation, no_timers, quiet, json, smoke, large, fresh;
 } fm_arguments;
 
 /* Options that these subcommands have in common; children of their argp. */

@@ -156,7 +156,7 @@ static void tell_continued(const fm_arguments *arguments, const char *directory)
     if (!arguments->quiet && access(journal, F_OK) == 0)
         fprintf(arguments->cli->talk,
                 "%s: goes on with what an earlier run left; what it finished is not measured again "
-                "(remove the folder, or name another, to measure anew)\n",
+                "(--fresh measures what was changed since, another -o all)\n",
                 directory);
 }
 
@@ -170,12 +170,14 @@ static fm_status expect_devices(const fm_device_list *devices, const fm_plan *pl
     return status;
 }
 
-static int fail_run(const fm_arguments *arguments, bool is_damaged, const fm_error *err)
+static int fail_run(const fm_arguments *arguments, const fm_run_result *result, const fm_error *err)
 {
     const int code = cli_fail(arguments->cli, err);
+    if (result->is_other_code)
+        return CLI_OTHER_CODE;
     if (err->status != FM_IO)
         return code;
-    return is_damaged ? CLI_DAMAGED : CLI_INCOMPLETE;
+    return result->is_damaged ? CLI_DAMAGED : CLI_INCOMPLETE;
 }
 
 int cli_run_plan(const fm_arguments *arguments, const cli_run_desc *desc)
@@ -189,6 +191,7 @@ int cli_run_plan(const fm_arguments *arguments, const cli_run_desc *desc)
         .no_timers = arguments->no_timers,
         .no_images = arguments->no_images,
         .retried = arguments->retried,
+        .is_fresh = arguments->fresh,
         .timeout_s = arguments->timeout_s,
         .memory_bytes = arguments->memory_bytes,
         .progress = arguments->quiet ? NULL : arguments->cli->talk,
@@ -200,7 +203,7 @@ int cli_run_plan(const fm_arguments *arguments, const cli_run_desc *desc)
     fm_status status = run_cases(&result, desc->plan, desc->plugins, &run, &err);
     if (status == FM_OK)
         status = keep_memory(desc, &err);
-    const int failed = status != FM_OK ? fail_run(arguments, result.is_damaged, &err) : CLI_DONE;
+    const int failed = status != FM_OK ? fail_run(arguments, &result, &err) : CLI_DONE;
     if (status == FM_OK || failed == CLI_INCOMPLETE)
         sum_up(arguments, &result, desc);
     if (status != FM_OK)

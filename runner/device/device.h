@@ -53,12 +53,14 @@ enum {
 /* What a device is and can do; filled by open, then constant. Texts end with NUL, cut if need be.
  */
 typedef struct fm_device_caps {
-    char name[128];     /* "llvmpipe (LLVM 15.0.6, 256 bits)", "NVIDIA H100 80GB HBM3" */
-    char driver[128];   /* name and version */
-    char api[64];       /* "Vulkan 1.3.230", "OpenGL 4.5 (core)" */
-    uint32_t features;  /* FM_FEATURE_* bits of what shaders may use */
-    bool is_software;   /* the host's processors do the work, and its memory holds everything */
-    bool has_gpu_clock; /* its clock falls when idle: empty timers show by how much */
+    char name[128];         /* "llvmpipe (LLVM 15.0.6, 256 bits)", "NVIDIA H100 80GB HBM3" */
+    char driver[128];       /* name and version */
+    char api[64];           /* "Vulkan 1.3.230", "OpenGL 4.5 (core)" */
+    char driver_build[160]; /* what tells this build of the driver from all others; "": it is a part
+                               of the program */
+    uint32_t features;      /* FM_FEATURE_* bits of what shaders may use */
+    bool is_software;       /* the host's processors do the work, and its memory holds everything */
+    bool has_gpu_clock;     /* its clock falls when idle: empty timers show by how much */
     bool needs_helper_guard;  /* helper lanes reach atomics: shaders leave before any lock */
     bool needs_lock_barriers; /* memory barriers around a lock's section are needed (and work) */
     uint32_t loop_limit;      /* most iterations of all loops of an invocation, after which they end

@@ -83,17 +83,31 @@ const fm_column fm_columns[] = {
     ENDS(FRAME_WALL_MS, "frame_wall_ms"),
     ENDS(FRAGMENTS_PER_S, "fragments_per_s"),
     FACT(NOISY),
+    FACT(CODE_PROGRAM),
+    FACT(CODE_DRIVER),
+    FACT(CODE_PLUGIN),
+    FACT(CODE_SHADERS),
 };
 /* clang-format on */
 _Static_assert(sizeof fm_columns / sizeof fm_columns[0] == FM_COLUMN_COUNT, "FM_COLUMN_COUNT");
 
 static const char *const fact_name[] = {
-    [FM_FACT_SCHEMA] = "schema",   [FM_FACT_CASE_ID] = "case_id",
-    [FM_FACT_STATUS] = "status",   [FM_FACT_MESSAGE] = "message",
-    [FM_FACT_METHOD] = "method",   [FM_FACT_METHOD_VERSION] = "method_version",
-    [FM_FACT_DEVICE] = "device",   [FM_FACT_DEVICE_NAME] = "device_name",
-    [FM_FACT_FEED] = "feed",       [FM_FACT_SCENE] = "scene",
-    [FM_FACT_OPTIONS] = "options", [FM_FACT_NOISY] = "noisy",
+    [FM_FACT_SCHEMA] = "schema",
+    [FM_FACT_CASE_ID] = "case_id",
+    [FM_FACT_STATUS] = "status",
+    [FM_FACT_MESSAGE] = "message",
+    [FM_FACT_METHOD] = "method",
+    [FM_FACT_METHOD_VERSION] = "method_version",
+    [FM_FACT_DEVICE] = "device",
+    [FM_FACT_DEVICE_NAME] = "device_name",
+    [FM_FACT_FEED] = "feed",
+    [FM_FACT_SCENE] = "scene",
+    [FM_FACT_OPTIONS] = "options",
+    [FM_FACT_NOISY] = "noisy",
+    [FM_FACT_CODE_PROGRAM] = "code_program",
+    [FM_FACT_CODE_DRIVER] = "code_driver",
+    [FM_FACT_CODE_PLUGIN] = "code_plugin",
+    [FM_FACT_CODE_SHADERS] = "code_shaders",
 };
 _Static_assert(sizeof fact_name / sizeof fact_name[0] == FM_FACT_COUNT, "one name a fact");
 

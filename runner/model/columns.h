@@ -23,6 +23,10 @@ typedef enum fm_fact {
     FM_FACT_SCENE,          /* its name, or the path of its file */
     FM_FACT_OPTIONS,        /* "key=value ...": a method's own, and keys off their default that have
                                no column */
+    FM_FACT_CODE_PROGRAM,   /* 16 hex digits of what the row was measured by (code/code.h) */
+    FM_FACT_CODE_DRIVER,    /* the same; empty: no launch opened the device */
+    FM_FACT_CODE_PLUGIN,    /* of the method's plugin and the floor's */
+    FM_FACT_CODE_SHADERS,   /* of all GLSL that was read; empty: none was */
     FM_FACT_NOISY,          /* why its times are not to be relied on; empty: no reason is known */
     FM_FACT_COUNT
 } fm_fact;
@@ -45,7 +49,7 @@ typedef struct fm_column {
 } fm_column;
 
 enum {
-    FM_COLUMN_COUNT = 70,
+    FM_COLUMN_COUNT = 74,
     FM_COLUMN_REQUIRED =
         51 /* the first of them: files of schema 1 have these, later ones may lack */
 };

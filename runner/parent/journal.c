@@ -29,7 +29,6 @@ _Static_assert(sizeof event_name / sizeof event_name[0] == FM_JOURNAL_EVENT_COUN
 
 /* How every journal begins; json_dumps keeps the order of json_pack. */
 static const char plan_line_start[] = "{\"event\":\"plan\"";
-static const char forget_line_start[] = "{\"event\":\"forget\"";
 
 static fm_status write_line(fm_journal *journal, json_t *line, fm_error *err)
 {
@@ -194,11 +193,13 @@ static const char *replay_line(const char *text, const fm_journal_reader *reader
     json_t *line = json_loads(text, 0, NULL);
     const json_t *result = json_object_get(line, "result");
     int event = FM_JOURNAL_EVENT_COUNT;
-    if (json_unpack(line, "{s:s, s:s, s:i}", "event", &name, "case", &case_id, "launch", &launch) ==
+    if (json_unpack(line, "{s:s, s:s, s?i}", "event", &name, "case", &case_id, "launch", &launch) ==
         0)
         for (event = 0; event < FM_JOURNAL_EVENT_COUNT; event++)
             if (strcmp(name, event_name[event]) == 0)
                 break;
+    if (event == FM_JOURNAL_FORGET)
+        launch = 0;
     if (event == FM_JOURNAL_EVENT_COUNT || launch < 0 ||
         (event == FM_JOURNAL_END || event == FM_JOURNAL_DIED) != json_is_object(result))
         why = "not a line that fragmark writes";
@@ -224,9 +225,7 @@ fm_status journal_replay(fm_journal *journal, const fm_journal_reader *reader, b
     for (unsigned number = 2; (length = getline(&text, &room, file)) > 0; number++) {
         if (text[length - 1] != '\n')
             break; /* torn */
-        const bool is_told = !reader->only_forgets ||
-                             strncmp(text, forget_line_start, sizeof forget_line_start - 1) == 0;
-        const char *why = is_told ? replay_line(text, reader, &below) : NULL;
+        const char *why = replay_line(text, reader, &below);
         if (why != NULL) {
             status = damaged(journal, is_damaged, number, why, err);
             goto out;
@@ -244,8 +243,9 @@ out:
 fm_status journal_write(fm_journal *journal, fm_journal_event event, const char *case_id,
                         uint32_t launch, json_t *result, fm_error *err)
 {
-    json_t *line = json_pack("{s:s, s:s, s:i}", "event", event_name[event], "case", case_id,
-                             "launch", (int)launch);
+    json_t *line = json_pack("{s:s, s:s}", "event", event_name[event], "case", case_id);
+    if (line != NULL && event != FM_JOURNAL_FORGET)
+        json_object_set_new(line, "launch", json_integer((json_int_t)launch));
     if (line != NULL && result != NULL)
         json_object_set(line, "result", result);
     const fm_status status = write_line(journal, line, err);

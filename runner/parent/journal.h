@@ -4,7 +4,7 @@
  *   {"event":"end","case":ID,"launch":0,"result":{...}}      after it
  *   {"event":"died","case":ID,"launch":0,"result":{...}}     its worker died the first time: how
  *   {"event":"stop","case":ID,"launch":0}                    it was stopped: it did not finish
- *   {"event":"forget","case":ID,"launch":0}                  all of the case above counts no more
+ *   {"event":"forget","case":ID}                             what was measured of it so far is void
  * The file is locked while it is open, so that two runs cannot share a directory. */
 #ifndef FM_JOURNAL_H
 #define FM_JOURNAL_H
@@ -22,7 +22,7 @@ typedef enum fm_journal_event {
     FM_JOURNAL_END,
     FM_JOURNAL_DIED,
     FM_JOURNAL_STOP,
-    FM_JOURNAL_FORGET,
+    FM_JOURNAL_FORGET, /* of a case: its launch is 0 */
     FM_JOURNAL_EVENT_COUNT
 } fm_journal_event;
 
@@ -32,7 +32,6 @@ typedef struct fm_journal_reader {
      * or launch. */
     fm_status (*line)(void *context, fm_journal_event event, const char *case_id, uint32_t launch,
                       const json_t *result, fm_error *err);
-    bool only_forgets; /* it is told of FM_JOURNAL_FORGET alone */
     void *context;
 } fm_journal_reader;
 

@@ -52,17 +52,29 @@ static json_t *devices_json(const fm_results *results)
     return devices;
 }
 
+/* "layout=pixel counters=32", as column `options` spells it. */
+static json_t *defaults_json(const fm_method_desc *method)
+{
+    fm_text text = { 0 };
+    for (size_t i = 0; i < FM_MAX_OPTIONS && method->options[i].name != NULL; i++)
+        text_add(&text, "%s%s=%s", i > 0 ? " " : "", method->options[i].name,
+                 method->options[i].values[0]);
+    json_t *json = json_string(text.bytes != NULL ? text.bytes : "");
+    text_free(&text);
+    return json;
+}
+
 json_t *method_json(const fm_method_desc *method)
 {
     json_t *traits = json_array();
     for (unsigned bit = 0; trait_name(bit) != NULL; bit++)
         if ((method->traits & 1u << bit) != 0)
             json_array_append_new(traits, json_string(trait_name(bit)));
-    return json_pack("{s:s, s:s?, s:s?, s:s, s:s, s:b, s:o}", "title",
+    return json_pack("{s:s, s:s?, s:s?, s:s, s:s, s:b, s:o, s:o}", "title",
                      method->title != NULL ? method->title : method->id, "citation",
                      method->citation, "version", method->version, "family",
                      family_name(method->family), "marker", marker_name(method->marker), "dashed",
-                     (int)method->dashed, "traits", traits);
+                     (int)method->dashed, "traits", traits, "defaults", defaults_json(method));
 }
 
 static json_t *methods_json(const fm_results *results)

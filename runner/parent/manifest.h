@@ -16,7 +16,7 @@ typedef struct fm_manifest_desc {
 fm_status manifest_write(const fm_manifest_desc *desc, fm_error *err);
 
 /* A method's descriptor for readers of results: title, citation, version, family, marker, dashed,
- * traits. NULL without memory. */
+ * traits, and the defaults of its options. NULL without memory. */
 json_t *method_json(const fm_method_desc *method);
 
 #endif

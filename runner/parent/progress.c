@@ -42,7 +42,7 @@ static void write_state(fm_progress *progress, double now)
 void progress_tick(fm_progress *progress)
 {
     const double now = clock_s();
-    if (progress->out != NULL &&
+    if (progress->out != NULL && progress->started_s > 0.0 &&
         (progress->is_terminal || now - progress->written_s >= plain_interval_s))
         write_state(progress, now);
 }

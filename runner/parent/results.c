@@ -77,6 +77,8 @@ fm_status results_create(fm_results **results, const fm_plan *plan, const fm_plu
     if (status == FM_OK)
         status = create_cases(created, err);
     if (status == FM_OK)
+        status = codes_create(&created->codes, plan->count, err);
+    if (status == FM_OK)
         status = begin_samples(created, err);
     if (status == FM_OK)
         *results = created;
@@ -101,6 +103,7 @@ void results_destroy(fm_results *results)
         free(result->images);
     }
     free(results->cases);
+    codes_free(&results->codes);
     json_decref(results->meshes);
     if (results->samples_fd >= 0)
         close(results->samples_fd);
@@ -309,6 +312,16 @@ static fm_status keep(fm_results *results, size_t case_index, uint32_t launch, c
     return FM_OK;
 }
 
+static fm_status keep_code(fm_results *results, size_t case_index, const json_t *answer,
+                           fm_error *err)
+{
+    fm_code code;
+    const bool has_code = answer_code(&code, answer);
+    const fm_status status = codes_add(&results->codes, case_index, has_code ? &code : NULL, err);
+    code_free(&code);
+    return status;
+}
+
 fm_status results_add(fm_results *results, size_t case_index, uint32_t launch, const json_t *answer,
                       fm_error *err)
 {
@@ -318,6 +331,8 @@ fm_status results_add(fm_results *results, size_t case_index, uint32_t launch, c
     size_t index;
     const json_t *sample;
     fm_status status = keep(results, case_index, launch, answer, err);
+    if (status == FM_OK)
+        status = keep_code(results, case_index, answer, err);
     if (status != FM_OK)
         return status;
     free(kept->row);

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "code/codes.h"
 #include "model/columns.h"
 #include "model/outcome.h"
 #include "plan/plan.h"
@@ -48,6 +49,7 @@ typedef struct fm_results {
     const fm_plan *plan;
     const fm_plugin_list *plugins;
     fm_case_result *cases; /* [plan->count] */
+    fm_codes codes;        /* what the cases were measured by */
     json_t *meshes;        /* by file: what was loaded, as answers say it */
     char summary_path[FM_PATH_MAX_BYTES], samples_path[FM_PATH_MAX_BYTES];
     char run_id[17];

@@ -36,6 +36,8 @@ typedef struct fm_run_desc {
     bool no_images;
     uint32_t retried;      /* statuses, as bits 1u << fm_case_status: rows of an earlier run that
                               have them are measured anew, and the old ones forgotten */
+    bool is_fresh;         /* rows of other code than is here now are measured anew; else they are
+                              refused */
     uint32_t timeout_s;    /* of one launch; 0 is 600 */
     uint64_t memory_bytes; /* address-space limit of one launch; 0: none */
     FILE *progress;        /* NULL: silent */
@@ -54,13 +56,16 @@ typedef struct fm_run_result {
     double load;         /* greatest load average; NAN: unknown */
     int stop_signal;     /* SIGINT, SIGTERM or SIGHUP that interrupted it, or 0 */
     bool is_damaged;     /* FM_IO because the journal is damaged or foreign */
+    bool is_other_code;  /* FM_INVALID because a row was begun with other code than is here now */
 } fm_run_result;
 
-/* Runs all launches that an earlier run in the same directory has not finished.
+/* Runs all launches that an earlier run in the same directory has not finished. Before the first
+ * one, each row of that run is compared with the code that is here now, finished ones too.
  * FM_INVALID: nothing was run: no floor method, the directory belongs to another plan, is in use,
- * or cannot be made. FM_IO: files cannot be written, the world stopped the run, or
- * is_damaged. The run can be continued after
- * every error but the damage. */
+ * or cannot be made; or is_other_code: the message says of which rows what changed, before
+ * anything was launched or, where a file changed under the run, after the last launch that fits its
+ * row. FM_IO: files cannot be written, a device of an earlier run cannot be opened, the world
+ * stopped the run, or is_damaged. The run can be continued after every error but the damage. */
 fm_status run_cases(fm_run_result *result, const fm_plan *plan, const fm_plugin_list *plugins,
                     const fm_run_desc *desc, fm_error *err);
 

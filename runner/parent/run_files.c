@@ -64,12 +64,19 @@ void run_remove_images(const run_state *run, size_t case_index)
 
 void run_remove_truths(const run_state *run)
 {
-    static const char *const suffixes[] = { ".truth", ".truth.hull" };
+    static const char *const suffixes[] = { ".truth", ".truth.hull", ".truth.code" };
+    const size_t count = sizeof suffixes / sizeof suffixes[0];
     char path[FM_PATH_MAX_BYTES];
-    for (size_t i = 0; i < 2 * run->truths.count; i++)
-        if (run_path(path, run, "truth", run->truths.jobs[i / 2].name, suffixes[i % 2], NULL) ==
-            FM_OK)
+    for (size_t i = 0; i < count * run->truths.count; i++)
+        if (run_path(path, run, "truth", run->truths.jobs[i / count].name, suffixes[i % count],
+                     NULL) == FM_OK)
             unlink(path);
+    run_remove_folders(run);
+}
+
+void run_remove_folders(const run_state *run)
+{
+    char path[FM_PATH_MAX_BYTES];
     if (run_path(path, run, "truth", "", "", NULL) == FM_OK)
         rmdir(path);
     if (run_path(path, run, "work", "", "", NULL) == FM_OK)

@@ -1,7 +1,9 @@
 /* What the files behind run.h share; nobody else includes it. From below:
  *   run_files.c   where files of a run lie
  *   run_attempt.c a worker, asked again where it died
+ *   run_code.c    whether rows and truths were made by the code that is here now
  *   run_step.c    one launch, or the capture of one truth, from request to row
+ *   run_resume.c  what an earlier run left, from its journal
  *   run.c         a run: what is left of it, its rounds, its end */
 #ifndef FM_RUN_INTERNAL_H
 #define FM_RUN_INTERNAL_H
@@ -22,12 +24,15 @@ typedef struct run_state {
     fm_results *results;
     fm_truth_jobs truths;
     fm_stop_signals signals;
+    fm_codes codes;   /* of the journal, as it was found; forgets of what it is to forget */
+    json_t *drivers;  /* by device as cases name it: hash of its driver now, for those that were
+                         opened */
+    uint64_t program; /* hash of what workers execute */
     fm_progress progress;
-    uint32_t *order;   /* [plan->count]: of the running round */
-    uint32_t *forgets; /* [plan->count]: of the case, in the rest of the journal */
+    uint32_t *order; /* [plan->count]: of the running round */
     uint32_t forgotten;
     int stop_signal;
-    bool is_damaged;
+    bool is_damaged, is_other_code;
 } run_state;
 
 /* run_files.c */
@@ -40,6 +45,24 @@ fm_status run_make_folders(const run_state *run, fm_error *err);
 void run_remove_images(const run_state *run, size_t case_index);
 /* What only running launches need. Folders that hold more stay. */
 void run_remove_truths(const run_state *run);
+/* Those two folders, where they are empty. */
+void run_remove_folders(const run_state *run);
+
+/* run_code.c */
+/* What the journal's rows were measured by, and what of them is to be forgotten. */
+fm_status run_read_codes(run_state *run, fm_error *err);
+/* Compares that with what is here now: refuses with is_other_code, or with is_fresh writes into the
+ * journal that they are to be forgotten. */
+fm_status run_check_codes(run_state *run, fm_error *err);
+/* Puts into the answer what it may have read, if it says nothing, and compares it with what the row
+ * was measured by. FM_INVALID: is_other_code. */
+fm_status run_fit_code(run_state *run, size_t case_index, json_t *answer, fm_error *err);
+/* Whether the truth at path is there, and was captured by what is here now. */
+fm_status run_find_truth(bool *is_there, run_state *run, size_t job, const char *path,
+                         fm_error *err);
+/* Keeps beside a truth what captured it. */
+fm_status run_keep_truth_code(const run_state *run, const char *path, const json_t *answer,
+                              fm_error *err);
 
 /* run_attempt.c */
 #define RUN_NO_CASE SIZE_MAX
@@ -59,6 +82,11 @@ fm_status run_attempt_launch(fm_launch_outcome *outcome, run_state *run, const r
                              char **death, fm_error *err);
 
 /* run_step.c */
+/* The path of the plugin that measures a case; "": it was refused. */
+const char *run_plugin_path(const run_state *run, const fm_case *planned);
+/* What a truth job and the launches that are compared with it are asked alike. */
+fm_request run_request_for(const run_state *run, const fm_case *planned, size_t job,
+                           const char *truth);
 /* The case is to be launched, and not finished. */
 bool run_is_pending(const run_state *run, size_t case_index);
 /* Writes the end of a launch into journal, tables and, if it was the case's last, the summary. */
@@ -69,5 +97,14 @@ fm_status run_end_launch(run_state *run, size_t case_index, uint32_t launch, jso
 fm_status run_capture_truth(run_state *run, size_t job, fm_error *err);
 /* Launches a case. FM_IO: a fault of the run's own files; the launch stays unfinished. */
 fm_status run_measure(run_state *run, size_t case_index, uint32_t launch, fm_error *err);
+
+/* run_resume.c */
+/* The case of a line in the journal. FM_INVALID: the plan has no such case, or launch of it. */
+fm_status run_find_case(size_t *case_index, const run_state *run, const char *id, uint32_t launch,
+                        fm_error *err);
+/* Writes that what the journal has of a case counts no more, and removes its images. */
+fm_status run_forget(run_state *run, size_t case_index, fm_error *err);
+/* Opens the journal, and takes from it what was measured and is still to count. */
+fm_status run_resume(run_state *run, fm_error *err);
 
 #endif

@@ -16,7 +16,9 @@ fm_status run_end_launch(run_state *run, size_t case_index, uint32_t launch, jso
                          fm_error *err)
 {
     const char *id = run->plan->cases[case_index].id;
-    fm_status status = journal_write(run->journal, FM_JOURNAL_END, id, launch, result, err);
+    fm_status status = run_fit_code(run, case_index, result, err);
+    if (status == FM_OK)
+        status = journal_write(run->journal, FM_JOURNAL_END, id, launch, result, err);
     if (status == FM_OK)
         status = results_add(run->results, case_index, launch, result, err);
     if (status == FM_OK && results_is_finished(run->results, case_index))
@@ -30,16 +32,16 @@ static fm_status fail_truth(run_state *run, size_t job, const json_t *result, fm
     fm_status status = FM_OK;
     char message[2048];
     snprintf(message, sizeof message, "no truth: %.2000s", answer_message(result));
-    json_t *verdict = answer_make(answer_status(result), message);
     for (size_t i = 0; i < run->plan->count && status == FM_OK; i++) {
         if (run->truths.of_case[i] != job || !run_is_pending(run, i))
             continue;
         uint32_t launch = 0;
         while (run->results->cases[i].launches[launch].is_done)
             launch++;
+        json_t *verdict = answer_make(answer_status(result), message);
         status = run_end_launch(run, i, launch, verdict, err);
+        json_decref(verdict);
     }
-    json_decref(verdict);
     return status;
 }
 
@@ -51,22 +53,21 @@ static fm_status fail_run(const json_t *answer, const char *current, fm_error *e
                    current, answer_message(answer));
 }
 
-static const char *plugin_path(const run_state *run, const fm_case *planned)
+const char *run_plugin_path(const run_state *run, const fm_case *planned)
 {
     const fm_plugin_entry *entry = plugin_list_find(run->plugins, planned->method);
     return entry != NULL && entry->plugin != NULL ? entry->plugin->path : "";
 }
 
-/* What a truth job and the launches that are compared with it are asked alike. */
-static fm_request request_for(const run_state *run, const fm_case *planned, size_t job,
-                              const char *truth)
+fm_request run_request_for(const run_state *run, const fm_case *planned, size_t job,
+                           const char *truth)
 {
     return (fm_request){ .device = planned->device,
                          .feed = planned->feed,
                          .settings = &planned->settings,
                          .choices = planned->choices,
                          .choice_count = planned->choice_count,
-                         .plugin = plugin_path(run, planned),
+                         .plugin = run_plugin_path(run, planned),
                          .floor = run->truths.jobs[job].floor,
                          .common = run->plugins->common_folder,
                          .truth = truth,
@@ -79,18 +80,21 @@ fm_status run_capture_truth(run_state *run, size_t job, fm_error *err)
 {
     char path[FM_PATH_MAX_BYTES], name[sizeof run->truths.jobs[job].name + 8], current[160];
     const fm_case *planned = &run->plan->cases[run->truths.jobs[job].of];
+    bool is_there = false;
     fm_launch_outcome outcome;
     fm_status status = run_path(path, run, "truth", run->truths.jobs[job].name, ".truth", err);
-    if (status != FM_OK)
+    if (status == FM_OK)
+        status = run_find_truth(&is_there, run, job, path, err);
+    if (status != FM_OK || run->stop_signal != 0)
         return status;
     snprintf(name, sizeof name, "truth-%s", run->truths.jobs[job].name);
     snprintf(current, sizeof current, "truth of %.60s on %.60s", planned->scene, planned->device);
     progress_begin(&run->progress, current);
-    if (access(path, R_OK) == 0) { /* an interrupted run's: written whole or not at all */
+    if (is_there) { /* an interrupted run's: written whole or not at all */
         progress_skip(&run->progress);
         return FM_OK;
     }
-    fm_request request = request_for(run, planned, job, path);
+    fm_request request = run_request_for(run, planned, job, path);
     request.is_truth_job = true;
     const run_attempt attempt = {
         .name = name, .current = current, .request = &request, .case_index = RUN_NO_CASE
@@ -104,6 +108,8 @@ fm_status run_capture_truth(run_state *run, size_t job, fm_error *err)
         status = fail_run(outcome.result, current, err);
     else if (answer_status(outcome.result) != FM_CASE_OK)
         status = fail_truth(run, job, outcome.result, err);
+    else
+        status = run_keep_truth_code(run, path, outcome.result, err);
     progress_end(&run->progress, outcome.seconds);
     json_decref(outcome.result);
     return status;
@@ -129,7 +135,7 @@ fm_status run_measure(run_state *run, size_t case_index, uint32_t launch, fm_err
              has_k ? " k=" : "", has_k ? k : "", planned->scene, planned->device, planned->feed,
              launch);
     progress_begin(&run->progress, current);
-    fm_request request = request_for(run, planned, job, truth);
+    fm_request request = run_request_for(run, planned, job, truth);
     request.image = image;
     request.check = launch == 0;
     request.launch = launch;
@@ -150,6 +156,8 @@ fm_status run_measure(run_state *run, size_t case_index, uint32_t launch, fm_err
         status = journal_write(run->journal, FM_JOURNAL_STOP, planned->id, launch, NULL, err);
     else
         status = run_end_launch(run, case_index, launch, outcome.result, err);
+    if (run->is_other_code) /* the launch is not the row's, and is to be done again */
+        journal_write(run->journal, FM_JOURNAL_STOP, planned->id, launch, NULL, NULL);
     if (is_interrupted)
         return status;
     if (status == FM_OK && is_unfinished) {

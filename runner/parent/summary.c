@@ -162,6 +162,16 @@ static void write_noisy(fm_text *text, const row_state *row)
     text_free(&reasons);
 }
 
+static void write_code(fm_text *text, const row_state *row, fm_code_part part)
+{
+    char digits[17] = "";
+    const size_t index = (size_t)(row->result - row->results->cases);
+    const fm_code *code = codes_of(&row->results->codes, index);
+    if (code != NULL)
+        code_digits(digits, code_part(code, part));
+    text_add(text, "%s", digits);
+}
+
 static void write_fact(fm_text *text, const row_state *row, fm_fact fact)
 {
     switch (fact) {
@@ -200,6 +210,18 @@ static void write_fact(fm_text *text, const row_state *row, fm_fact fact)
         break;
     case FM_FACT_NOISY:
         write_noisy(text, row);
+        break;
+    case FM_FACT_CODE_PROGRAM:
+        write_code(text, row, FM_CODE_PROGRAM);
+        break;
+    case FM_FACT_CODE_DRIVER:
+        write_code(text, row, FM_CODE_DRIVER);
+        break;
+    case FM_FACT_CODE_PLUGIN:
+        write_code(text, row, FM_CODE_PLUGIN);
+        break;
+    case FM_FACT_CODE_SHADERS:
+        write_code(text, row, FM_CODE_SHADERS);
         break;
     case FM_FACT_COUNT:
         break;

@@ -18,15 +18,16 @@
 /* One row of the summary. */
 typedef struct fm_case {
     char id[17]; /* xxhash of what makes the case another one: method and its version, scene
-                    by name and by hash, device, feed, k and the other keys of a case, and
-                    choices other than an option's first value */
+                    by name and by hash, device, feed, k and the other keys of a case, and the
+                    value of each option, given or not */
     char method[64];
     char scene[128];  /* name of the scene as given */
     char device[128]; /* "vulkan", "vulkan:1", "osmesa" */
     char feed[32];    /* "raster", "compute-layer", ... */
     fm_settings settings;
     uint64_t given[FM_MAX_KEYS / 64]; /* bit i: an axis sets fm_keys[i], not the scene */
-    fm_choice *choices;               /* [choice_count]; owned by the plan; NULL: none */
+    fm_choice *choices;               /* [choice_count]: of each option its value, that of the
+                                         descriptor if no axis sets it; owned by the plan */
     size_t choice_count;
     char *skip;                 /* why it is not launched; owned by the plan; NULL: it is */
     fm_case_status skip_status; /* what is then recorded: FM_CASE_NOT_SUPPORTED (k above k_max, a

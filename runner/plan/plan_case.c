@@ -98,28 +98,38 @@ static void mark_given(fm_case *made, const fm_plan_point *point)
     }
 }
 
-/* In the order of the descriptor: two ways to say the same are the same. */
+/* The value that an axis gives the option; its first one, if none does. */
+static const char *choice_value(const fm_plan_point *point, const fm_option *option)
+{
+    const char *value = option->values[0];
+    for (size_t i = 0; i < point->selection->sweep_count; i++) {
+        const fm_sweep *sweep = &point->selection->sweeps[i];
+        if (sweep->key == NULL && strcmp(sweep->name, option->name) == 0)
+            value = sweep_value(point, i);
+    }
+    return value;
+}
+
+/* All options, in the order of the descriptor: two ways to say the same are the same, and what is
+ * measured hangs on no default that may be another one tomorrow. */
 static fm_status make_choices(fm_case *made, const fm_plan_point *point,
                               const fm_method_desc *method, fm_error *err)
 {
-    fm_choice choices[FM_MAX_OPTIONS];
     size_t count = 0;
-    for (size_t i = 0; i < FM_MAX_OPTIONS && method->options[i].name != NULL; i++) {
-        for (size_t j = 0; j < point->selection->sweep_count; j++) {
-            const fm_sweep *sweep = &point->selection->sweeps[j];
-            if (sweep->key != NULL || strcmp(sweep->name, method->options[i].name) != 0)
-                continue;
-            snprintf(choices[count].name, sizeof choices->name, "%s", sweep->name);
-            snprintf(choices[count++].value, sizeof choices->value, "%s", sweep_value(point, j));
-        }
-    }
+    while (count < FM_MAX_OPTIONS && method->options[count].name != NULL)
+        count++;
     if (count == 0)
         return FM_OK;
-    made->choices = malloc(count * sizeof *made->choices);
+    made->choices = calloc(count, sizeof *made->choices);
     if (made->choices == NULL)
         return fm_fail(err, FM_NO_MEMORY, "no memory for a case's options");
-    memcpy(made->choices, choices, count * sizeof *choices);
     made->choice_count = count;
+    for (size_t i = 0; i < count; i++) {
+        fm_choice *choice = &made->choices[i];
+        snprintf(choice->name, sizeof choice->name, "%s", method->options[i].name);
+        snprintf(choice->value, sizeof choice->value, "%s",
+                 choice_value(point, &method->options[i]));
+    }
     return FM_OK;
 }
 
@@ -228,15 +238,10 @@ static uint64_t mix(uint64_t mixed, const char *text)
     return XXH64(text, strlen(text) + 1, mixed);
 }
 
-static uint64_t mix_choices(uint64_t mixed, const fm_case *made, const fm_method_desc *method)
+static uint64_t mix_choices(uint64_t mixed, const fm_case *made)
 {
-    for (size_t i = 0; i < made->choice_count; i++) {
-        const fm_choice *choice = &made->choices[i];
-        if (strcmp(option_find(method, choice->name)->values[0], choice->value) == 0)
-            continue;
-        mixed = mix(mixed, choice->name);
-        mixed = mix(mixed, choice->value);
-    }
+    for (size_t i = 0; i < made->choice_count; i++)
+        mixed = mix(mix(mixed, made->choices[i].name), made->choices[i].value);
     return mixed;
 }
 
@@ -260,8 +265,7 @@ static void make_id(fm_case *made, const fm_plan_point *point)
             continue;
         mixed = mix(mix(mixed, fm_keys[i].name), value);
     }
-    if (method != NULL)
-        mixed = mix_choices(mixed, made, method);
+    mixed = mix_choices(mixed, made);
     snprintf(made->id, sizeof made->id, "%016llx", (unsigned long long)mixed);
 }
 

@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "shader_files.h"
+#include "code/shader_files.h"
 
 bool plugin_has_k(const fm_method_desc *method)
 {
@@ -120,7 +120,7 @@ static fm_status check_file_name(const fm_plugin *plugin, fm_error *err)
 /* "common/x.glsl" is the runner's, and as right as the runner. */
 static fm_status check_shader_files(const fm_plugin *plugin, const char *common, fm_error *err)
 {
-    const fm_shader_folders folders = { plugin->folder, common };
+    const fm_shader_folders folders = { .method = plugin->folder, .common = common };
     const char *name = plugin_file_name(plugin->path);
     char path[FM_PATH_MAX_BYTES];
     for (size_t i = 0; i < FM_MAX_PASSES && plugin->method->passes[i].name != NULL; i++) {

@@ -2,8 +2,7 @@
  *
  * This room knows descriptors and the files beside them. It compiles no shader, allocates nothing
  * on a device and runs no hook. plugin.c opens plugins, plugin_list.c finds them; check_*.c check a
- * descriptor, once; shader_files.h finds GLSL; culling_apply.h puts an occupancy map before a
- * method's passes. */
+ * descriptor, once; culling_apply.h puts an occupancy map before a method's passes. */
 #ifndef FM_PLUGIN_H
 #define FM_PLUGIN_H
 

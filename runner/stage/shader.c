@@ -207,6 +207,12 @@ static bool include_of(char file[128], const char *line)
     return sscanf(line + strspn(line, " \t"), "#include%*[ \t] \"%127[^\"]\"", file) == 1;
 }
 
+/* The runner's files are the same ones from whatever folder they are seen. */
+static fm_code_owner owner_of(const fm_shader_folders *folders, const char *file)
+{
+    return strncmp(file, "common/", 7) == 0 ? FM_CODE_OF_METHOD : folders->owner;
+}
+
 static fm_status add_file(fm_text *text, const fm_shader_folders *folders, const char *file,
                           int depth, fm_error *err)
 {
@@ -226,6 +232,8 @@ static fm_status add_file(fm_text *text, const fm_shader_folders *folders, const
             err->is_own = strncmp(file, "common/", 7) == 0;
         return status;
     }
+    if (folders->code != NULL)
+        code_add(folders->code, owner_of(folders, file), file, code_hash(bytes, count));
     for (char *line = bytes; status == FM_OK && *line != '\0';) {
         char *end = strchr(line, '\n');
         const size_t length = end != NULL ? (size_t)(end - line) + 1 : strlen(line);

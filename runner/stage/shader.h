@@ -6,7 +6,7 @@
 #include "base/text.h"
 #include "device/device.h"
 #include "model/settings.h"
-#include "plugin/shader_files.h"
+#include "code/shader_files.h"
 
 /* A resource as shaders see it. */
 typedef struct fm_slot {

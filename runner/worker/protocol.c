@@ -6,9 +6,11 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "code/code_json.h"
 #include "model/metrics.h"
 
-static const char truth_job[] = "truth", mesh_job[] = "mesh", measure_job[] = "measure";
+static const char truth_job[] = "truth", mesh_job[] = "mesh", device_job[] = "device",
+                  measure_job[] = "measure";
 
 static const char *text_in(const json_t *object, const char *field)
 {
@@ -53,16 +55,21 @@ static json_t *options_json(const fm_request *request)
     return object;
 }
 
+static const char *job_of(const fm_request *request)
+{
+    return request->is_truth_job    ? truth_job
+           : request->is_mesh_job   ? mesh_job
+           : request->is_device_job ? device_job
+                                    : measure_job;
+}
+
 fm_status request_write(const char *path, const fm_request *request, fm_error *err)
 {
     json_t *object = json_pack(
         "{s:s, s:s, s:s, s:s, s:s, s:b, s:b, s:s, s:o, s:o, s:s, s:i, s:b, s:s}", "job",
-        request->is_truth_job  ? truth_job
-        : request->is_mesh_job ? mesh_job
-                               : measure_job,
-        "plugin", request->plugin, "floor", request->floor, "common", request->common, "device",
-        request->device, "validation", (int)request->validation, "no_timers",
-        (int)request->no_timers, "feed", request->feed, "settings",
+        job_of(request), "plugin", request->plugin, "floor", request->floor, "common",
+        request->common, "device", request->device, "validation", (int)request->validation,
+        "no_timers", (int)request->no_timers, "feed", request->feed, "settings",
         settings_json(request->settings), "options", options_json(request), "truth", request->truth,
         "launch", (int)request->launch, "check", (int)request->check, "image", request->image);
     char *text = object != NULL ? json_dumps(object, JSON_INDENT(1)) : NULL;
@@ -119,6 +126,7 @@ fm_status request_read(fm_read_request *read, const char *path, fm_error *err)
     read->request = (fm_request){
         .is_truth_job = strcmp(text_in(json, "job"), truth_job) == 0,
         .is_mesh_job = strcmp(text_in(json, "job"), mesh_job) == 0,
+        .is_device_job = strcmp(text_in(json, "job"), device_job) == 0,
         .plugin = text_in(json, "plugin"),
         .floor = text_in(json, "floor"),
         .common = text_in(json, "common"),
@@ -150,6 +158,11 @@ void answer_set_device(json_t *answer, const fm_device_caps *caps)
     json_object_set_new(answer, "device_api", any_text(caps->api));
     json_object_set_new(answer, "has_gpu_clock", json_boolean(caps->has_gpu_clock));
     json_object_set_new(answer, "is_software", json_boolean(caps->is_software));
+}
+
+void answer_set_code(json_t *answer, const fm_code *code)
+{
+    json_object_set_new(answer, "code", code_to_json(code));
 }
 
 void answer_set_verdict(json_t *answer, fm_case_status status, const char *message)
@@ -293,6 +306,14 @@ static bool is_of_numbers(json_t *object)
     return true;
 }
 
+static bool has_code(const json_t *answer)
+{
+    fm_code code;
+    const bool is_there = answer_code(&code, answer);
+    code_free(&code);
+    return is_there;
+}
+
 const char *answer_fault(const json_t *answer)
 {
     fm_case_status status;
@@ -309,6 +330,8 @@ const char *answer_fault(const json_t *answer)
         return "'status' and 'is_runs_fault' contradict each other";
     if (metrics != NULL && !json_is_object(metrics))
         return "'metrics' is not an object";
+    if (json_object_get(answer, "code") != NULL && !has_code(answer))
+        return "'code' is not that of code_json.h";
     if (!is_of_numbers(answer_launch(answer)))
         return "'launch' is not an object of numbers";
     if (samples != NULL && !json_is_array(samples))
@@ -349,6 +372,11 @@ bool answer_is_starved(const json_t *answer)
 const char *answer_message(const json_t *answer)
 {
     return text_in(answer, "message");
+}
+
+bool answer_code(fm_code *code, const json_t *answer)
+{
+    return code_from_json(code, json_object_get(answer, "code"));
 }
 
 json_t *answer_image_hashes(const json_t *answer)

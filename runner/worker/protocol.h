@@ -1,15 +1,15 @@
-/* clang-format off: JSON keeps its lines */
+/* clang-format off */
 /* The protocol between the parent of a run and its workers: the only place that spells its fields.
  *
  * The parent executes `fragmark worker REQUEST.json ANSWER.json`. The request says what to do:
- *   { "job": "measure", "truth" or "mesh",
+ *   { "job": "measure", "truth", "mesh" or "device",
  *     "plugin": "path of the method's .so",
  *     "floor": "path of the floor's .so, or empty",
  *     "common": "folder of the runner's GLSL",
  *     "device": "vulkan:0", "validation": false, "no_timers": false,
  *     "feed": "raster",
  *     "settings": { "k": "8", ... },        every key of fm_keys, as text
- *     "options": { "layout": "layer" },     the method's own, only those given
+ *     "options": { "layout": "layer" },     the method's own, each with its value
  *     "truth": "path of the truth file", "launch": 0,
  *     "check": true,                        capture and compare all fragments
  *     "image": "path to write the image to, or empty" }
@@ -19,18 +19,24 @@
  *     "is_runs_fault": false,               true: the run's own files failed; nothing was measured,
  *                                           and status is "skipped"
  *     "is_truth_unusable": false,           true, with is_runs_fault: the truth file is to be made
- * anew "device_name": "...", "device_driver": "...", "device_api": "...", "has_gpu_clock": false,
- * "is_software": true, "modelled": { "scene": [...], "passes": [...], "buffers": [...] },    names
+ *                                           anew
  *     "is_starved": false,                  true, with wrong_image: a lock gave up, perhaps since
- * the machine is busy "image_hashes": ["16 hex digits"],    of all timed frames, each once; a
- * sequence has one "mesh": { "file": "...", "told": "a sentence", "triangles": 12, ... },   what a
- * scene's file held, not of launches without "check" "metrics": { "n": 128, ... },         one
- * number a case, by its metric's name "launch": { "timed_s": 0.21, ... },   one number a launch,
- * the same "samples": [ { "frame": 0, "metric": "store_ms", "value": 1.25, "unit": "ms" }, ... ] }
+ *                                           the machine is busy
+ *     "code": { "program": "16 hex digits", ... },   what was loaded and read: code/code_json.h
+ *     "device_name": "...", "device_driver": "...", "device_api": "...", "has_gpu_clock": false,
+ *     "is_software": true,
+ *     "modelled": { "scene": [...], "passes": [...], "buffers": [...] },    names
+ *     "image_hashes": ["16 hex digits"],    of all timed frames, each once; a sequence has one
+ *     "mesh": { "file": "...", "told": "a sentence", "triangles": 12, ... },   what a scene's file
+ *                                           held, not of launches without "check"
+ *     "metrics": { "n": 128, ... },         one number a case, by its metric's name
+ *     "launch": { "timed_s": 0.21, ... },   one number a launch, the same
+ *     "samples": [ { "frame": 0, "metric": "store_ms", "value": 1.25, "unit": "ms" }, ... ] }
  *
  * Names, units and meanings of metrics are in model/metrics.h. With "check" the answer has the
  * metrics that come from comparing with truth; with timers=frame it has no times of passes. A
- * "truth" job writes the truth file and answers status, message and the metrics of truth. */
+ * "truth" job writes the truth file and answers status, message and the metrics of truth; a
+ * "device" job only opens the device, and answers what it is. */
 /* clang-format on */
 #ifndef FM_PROTOCOL_H
 #define FM_PROTOCOL_H
@@ -39,6 +45,7 @@
 #include <stdbool.h>
 
 #include "base/error.h"
+#include "code/code.h"
 #include "device/device.h"
 #include "mesh/facts.h"
 #include "model/descriptor.h"
@@ -48,11 +55,12 @@
 /* What a worker is asked. All borrowed. */
 typedef struct fm_request {
     bool is_truth_job;
-    bool is_mesh_job; /* only to read the scene, and to say what its mesh holds */
+    bool is_mesh_job;   /* only to read the scene, and to say what its mesh holds */
+    bool is_device_job; /* only to open the device, and to say what it is */
     const char *plugin, *floor, *common; /* paths; floor "": a feed without times */
     const char *device, *feed;           /* as the case names them */
     const fm_settings *settings;
-    const fm_choice *choices; /* of the method's options: those given */
+    const fm_choice *choices; /* of the method's options; its first value for what is missing */
     size_t choice_count;
     const char *truth; /* path of the truth file */
     const char *image; /* path of the image to be written; "": none */
@@ -84,6 +92,7 @@ void request_free(fm_read_request *read);
 /* Writing an answer: the worker's side. */
 
 void answer_set_device(json_t *answer, const fm_device_caps *caps);
+void answer_set_code(json_t *answer, const fm_code *code);
 /* Bytes of the message that are no UTF-8 become '?'. */
 void answer_set_verdict(json_t *answer, fm_case_status status, const char *message);
 /* The run's own files failed: no verdict on the method. */
@@ -118,7 +127,10 @@ fm_case_status answer_status(const json_t *answer);
 bool answer_is_runs_fault(const json_t *answer);
 bool answer_is_truth_unusable(const json_t *answer);
 bool answer_is_starved(const json_t *answer);
-const char *answer_message(const json_t *answer);  /* "": there is none */
+const char *answer_message(const json_t *answer); /* "": there is none */
+/* false: it has no code: a worker that left no answer, an older program's journal. code_free also
+ * then. */
+bool answer_code(fm_code *code, const json_t *answer);
 json_t *answer_image_hashes(const json_t *answer); /* borrowed; NULL: none */
 json_t *answer_metrics(const json_t *answer);      /* the same */
 json_t *answer_modelled(const json_t *answer);     /* the same */

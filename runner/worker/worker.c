@@ -33,6 +33,7 @@ typedef struct launch_job {
     char hull[FM_PATH_MAX_BYTES + 8]; /* beside the truth, for later launches of the scene */
     fm_measurement measurement;
     fm_technique_outcome sequence; /* of a technique */
+    fm_code code;                  /* what was loaded and read */
     fm_error error;
     bool has_request; /* it was read and understood */
     bool is_plugins;  /* the plugin is at work: what fails now is its fault */
@@ -57,6 +58,20 @@ static fm_status not_the_plugins(fm_status status)
     return status == FM_INVALID || status == FM_IO ? FM_UNSUPPORTED : status;
 }
 
+/* The program's own devices are as it is. */
+static uint64_t hash_driver(const fm_device_caps *caps, uint64_t program)
+{
+    const char *const texts[] = { caps->driver_build, caps->name, caps->driver, caps->api };
+    uint64_t mixed = 0;
+    if (caps->driver_build[0] == '\0')
+        return program;
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
+        const uint64_t both[] = { mixed, code_hash(texts[i], strlen(texts[i])) };
+        mixed = code_hash(both, sizeof both);
+    }
+    return mixed;
+}
+
 static fm_status open_device(launch_job *job)
 {
     const fm_device_desc desc = { .validation = job->request->validation,
@@ -66,6 +81,7 @@ static fm_status open_device(launch_job *job)
     if (status != FM_OK)
         return not_the_plugins(status);
     answer_set_device(job->answer, &job->device->caps);
+    job->code.driver = hash_driver(&job->device->caps, job->code.program);
     return FM_OK;
 }
 
@@ -77,11 +93,13 @@ static bool has_frames(const launch_job *job)
 static fm_status open_plugins(launch_job *job)
 {
     job->is_opening = true;
+    code_add_plugin(&job->code, FM_CODE_OF_METHOD, job->request->plugin);
     fm_status status =
         plugin_open(&job->method, job->request->plugin, job->request->common, &job->error);
     job->is_opening = status != FM_OK;
     if (status != FM_OK || has_frames(job))
         return status;
+    code_add_plugin(&job->code, FM_CODE_OF_FLOOR, job->request->floor);
     status = plugin_open(&job->floor, job->request->floor, job->request->common, &job->error);
     job->is_floors = status != FM_OK;
     return status;
@@ -183,7 +201,8 @@ static fm_status frames_job(launch_job *job)
 
 static fm_status truth_job(launch_job *job)
 {
-    const char *path = job->request->truth;
+    const char *path = job->request->truth, *common = job->request->common;
+    const fm_shader_folders folders = { .method = common, .common = common, .code = &job->code };
     fm_status status = not_the_plugins(settings_finish(&job->settings, &job->error));
     if (status != FM_OK)
         return status;
@@ -196,8 +215,7 @@ static fm_status truth_job(launch_job *job)
     if (status == FM_OK)
         status = open_scene(job);
     if (status == FM_OK)
-        status = truth_capture(path, job->device, job->scene, job->feed, job->request->common,
-                               &job->error);
+        status = truth_capture(path, job->device, job->scene, job->feed, &folders, &job->error);
     if (status == FM_OK)
         status = truth_open(&job->truth, path, &job->error);
     if (status != FM_OK)
@@ -213,7 +231,7 @@ static fm_status measure(launch_job *job)
     const fm_instance_desc method = {
         .stage = job->stage,
         .method = &job->desc,
-        .folders = { job->method->folder, common },
+        .folders = { .method = job->method->folder, .common = common, .code = &job->code },
         .settings = &job->settings,
         .choices = job->request->choices,
         .choice_count = job->request->choice_count,
@@ -223,6 +241,7 @@ static fm_status measure(launch_job *job)
     fm_instance_desc floor = method;
     floor.method = job->floor->method;
     floor.folders.method = job->floor->folder;
+    floor.folders.owner = FM_CODE_OF_FLOOR;
     floor.choice_count = 0;
     const fm_measure_desc desc = { .method = &method,
                                    .floor = &floor,
@@ -328,6 +347,7 @@ static void release(launch_job *job)
     plugin_close(job->floor);
     plugin_close(job->method);
     request_free(&job->read);
+    code_free(&job->code);
     json_decref(job->answer);
 }
 
@@ -358,10 +378,12 @@ int worker_main(const char *request_path, const char *answer_path, const fm_devi
     fm_status status = request_read(&job.read, request_path, &job.error);
     job.has_request = status == FM_OK;
     job.settings = job.read.settings;
+    job.code.program = code_hash_file("/proc/self/exe");
     if (status == FM_OK)
-        status = job.request->is_mesh_job    ? open_scene(&job)
-                 : job.request->is_truth_job ? truth_job(&job)
-                                             : measure_job(&job);
+        status = job.request->is_mesh_job     ? open_scene(&job)
+                 : job.request->is_device_job ? open_device(&job)
+                 : job.request->is_truth_job  ? truth_job(&job)
+                                              : measure_job(&job);
     const fm_case_status word = case_status_of(&job, status);
     note_validation(&job, word);
     if (is_runs_fault(&job, status)) {
@@ -371,6 +393,7 @@ int worker_main(const char *request_path, const char *answer_path, const fm_devi
     } else {
         answer_set_verdict(job.answer, word, job.error.message);
     }
+    answer_set_code(job.answer, &job.code);
     if (!job.request->is_truth_job)
         answer_add_launch(job.answer, &job.measurement);
     const int written = json_dump_file(job.answer, answer_path, JSON_INDENT(1));

@@ -74,7 +74,7 @@ fm_status frames_try(frames_seen *seen, fm_device *device, const kit_frames *fra
     kit_open(&kit, device);
     kit_scene_open(&scene, &kit,
                    frames->scene != NULL ? frames->scene : "width_px=3 height_px=2 n=0");
-    const fm_shader_folders folders = { folder, kit.plugins.common_folder };
+    const fm_shader_folders folders = { .method = folder, .common = kit.plugins.common_folder };
     const fm_status status = run(seen, &scene, frames, &folders, err);
     kit_scene_close(&scene);
     kit_close(&kit);

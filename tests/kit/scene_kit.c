@@ -125,11 +125,12 @@ static void capture(fm_truth **truth, const kit_scene *scene, uint32_t feed)
 {
     fm_error err = { .message = "" };
     char path[] = "/tmp/fm-truth-XXXXXX";
+    const char *common = scene->kit->plugins.common_folder;
+    const fm_shader_folders folders = { .method = common, .common = common };
     const int fd = mkstemp(path);
     assert_true(fd >= 0);
     close(fd);
-    if (truth_capture(path, scene->kit->device, scene->scene, feed,
-                      scene->kit->plugins.common_folder, &err) != FM_OK)
+    if (truth_capture(path, scene->kit->device, scene->scene, feed, &folders, &err) != FM_OK)
         fail_msg("%s", err.message);
     const fm_status status = truth_open(truth, path, &err);
     unlink(path);
@@ -200,7 +201,7 @@ static void fill_desc(fm_instance_desc *desc, const kit_scene *scene, const fm_t
     const uint32_t places = measure_places(plugin->method, settings->k);
     *desc = (fm_instance_desc){
         .method = plugin->method,
-        .folders = { plugin->folder, scene->kit->plugins.common_folder },
+        .folders = { .method = plugin->folder, .common = scene->kit->plugins.common_folder },
         .settings = settings,
         .fragments = truth->fragment_count,
         .fragments_kept = truth_kept(truth, places),

@@ -111,20 +111,20 @@ static void journal_cuts_a_torn_last_line_off(void **state)
     fake_close(&fake);
 }
 
-static void journal_can_tell_of_what_is_forgotten_alone(void **state)
+static void journal_tells_of_what_is_forgotten_in_its_place(void **state)
 {
     (void)state;
     fake_plan fake;
     heard all = { "" };
     bool is_damaged = false;
-    const fm_journal_reader reader = { .line = hear, .only_forgets = true, .context = &all };
+    const fm_journal_reader reader = { .line = hear, .context = &all };
     fake_open(&fake, NO_IDS, 1);
     fm_journal *journal = opened(&fake);
     write_case(journal, "a");
     assert_int_equal(journal_write(journal, FM_JOURNAL_FORGET, "a", 0, NULL, NULL), FM_OK);
     write_case(journal, "a");
     assert_int_equal(journal_replay(journal, &reader, &is_damaged, NULL), FM_OK);
-    assert_string_equal(all.text, "forget a 0|");
+    assert_string_equal(all.text, "begin a 0|end a 0 ok|forget a 0|begin a 0|end a 0 ok|");
     journal_close(journal);
     fake_close(&fake);
 }
@@ -213,7 +213,7 @@ int main(void)
         cmocka_unit_test(journal_tells_again_what_was_written),
         cmocka_unit_test(journal_keeps_the_runs_id_and_start),
         cmocka_unit_test(journal_cuts_a_torn_last_line_off),
-        cmocka_unit_test(journal_can_tell_of_what_is_forgotten_alone),
+        cmocka_unit_test(journal_tells_of_what_is_forgotten_in_its_place),
         cmocka_unit_test(journal_starts_anew_after_a_torn_first_line),
         cmocka_unit_test(journal_reports_damage_with_its_line),
         cmocka_unit_test(journal_refuses_foreign_files_and_leaves_them),

@@ -117,7 +117,8 @@ static void summary_has_the_columns_of_the_design_in_order(void **state)
         "low,count_ms_high,"
         "reference_ms_low,reference_ms_high,store_ms_low,store_ms_high,resolve_ms_low,"
         "resolve_ms_high,times_floor_low,times_floor_high,frame_wall_ms_low,frame_wall_ms_high,"
-        "fragments_per_s_low,fragments_per_s_high,noisy\n");
+        "fragments_per_s_low,fragments_per_s_high,noisy,"
+        "code_program,code_driver,code_plugin,code_shaders\n");
     text_free(&header);
 }
 

@@ -278,9 +278,33 @@ static void plan_gives_an_option_to_the_methods_that_have_it(void **state)
     fixture_create(&with);
     const fm_plan_request request = { .methods = LIST("kb", "ab"), .axes = LIST("page=1:4:*2") };
     expect(&with, &request, 4);
-    assert_int_equal(with.plan.cases[0].choice_count, 0);
-    assert_string_equal(with.plan.cases[3].choices[0].name, "page");
-    assert_string_equal(with.plan.cases[3].choices[0].value, "4");
+    assert_int_equal(with.plan.cases[0].choice_count, 1); /* its own, as the descriptor has it */
+    assert_string_equal(with.plan.cases[0].choices[0].value, "pixel");
+    const fm_case *last = &with.plan.cases[3];
+    assert_string_equal(last->choices[last->choice_count - 1].name, "page");
+    assert_string_equal(last->choices[last->choice_count - 1].value, "4");
+    plan_free(&with.plan);
+}
+
+/* Who changes a default must not find yesterday's rows under the ids of today's. */
+static void plan_gives_a_changed_default_another_id(void **state)
+{
+    (void)state;
+    fixture with;
+    char before[17];
+    fixture_create(&with);
+    expect(&with, &(fm_plan_request){ .methods = LIST("kb") }, 1);
+    snprintf(before, sizeof before, "%s", with.plan.cases[0].id);
+    expect(&with, &(fm_plan_request){ .methods = LIST("kb"), .axes = LIST("layout=pixel") }, 1);
+    assert_string_equal(with.plan.cases[0].id, before); /* the default, said aloud */
+    fm_method_desc changed = kb_method;
+    changed.options[0].values[0] = "layer";
+    changed.options[0].values[1] = "pixel";
+    with.plugins[1].method = &changed;
+    expect(&with, &(fm_plan_request){ .methods = LIST("kb") }, 1);
+    assert_string_not_equal(with.plan.cases[0].id, before);
+    expect(&with, &(fm_plan_request){ .methods = LIST("kb"), .axes = LIST("layout=pixel") }, 1);
+    assert_string_equal(with.plan.cases[0].id, before);
     plan_free(&with.plan);
 }
 
@@ -494,6 +518,7 @@ int main(void)
         cmocka_unit_test(plan_bounds_the_number_of_cases),
         cmocka_unit_test(plan_joins_cases_that_differ_only_in_an_unused_k),
         cmocka_unit_test(plan_gives_an_option_to_the_methods_that_have_it),
+        cmocka_unit_test(plan_gives_a_changed_default_another_id),
         cmocka_unit_test(plan_skips_with_the_reason),
         cmocka_unit_test(plan_skips_what_cannot_be_culled),
         cmocka_unit_test(keys_of_a_map_that_is_not_there_are_forgotten),

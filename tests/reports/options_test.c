@@ -38,6 +38,16 @@ static void keys_of_the_scene_are_apart_from_the_methods_own(void **state)
     text_list_free(&without);
 }
 
+static void defaults_are_dropped_as_whole_pairs(void **state)
+{
+    (void)state;
+    char kept[FM_OPTIONS_TEXT_BYTES];
+    options_drop(kept, "layout=pixel counters=2 count=flat", "counters=20 count=flat layout=pixel");
+    assert_string_equal(kept, "counters=2");
+    options_drop(kept, "layout=pixel timers=frame", NULL);
+    assert_string_equal(kept, "layout=pixel timers=frame");
+}
+
 /* Texts of 256 bytes were compared once, and longer ones taken for the same. */
 static void long_options_are_compared_to_their_end(void **state)
 {
@@ -54,6 +64,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(value_is_found_by_its_whole_key),
         cmocka_unit_test(keys_of_the_scene_are_apart_from_the_methods_own),
+        cmocka_unit_test(defaults_are_dropped_as_whole_pairs),
         cmocka_unit_test(long_options_are_compared_to_their_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -229,8 +229,9 @@ static void compare_truth(const witness *w, const char *device_name, const fm_sc
     const int fd = mkstemp(path);
     assert_true(fd >= 0);
     close(fd);
-    if (truth_capture(path, device, scene, FM_FEED_RASTER, kit.plugins.common_folder, &err) !=
-            FM_OK ||
+    const fm_shader_folders folders = { .method = kit.plugins.common_folder,
+                                        .common = kit.plugins.common_folder };
+    if (truth_capture(path, device, scene, FM_FEED_RASTER, &folders, &err) != FM_OK ||
         truth_open(&truth, path, &err) != FM_OK)
         fail_msg("%s", err.message);
     unlink(path);

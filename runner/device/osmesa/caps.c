@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "context.h"
+#include "device/library.h"
 
 /* llvmpipe ends all loops of an invocation after LP_MAX_TGSI_LOOP_ITERATIONS, without a word. */
 enum { LLVMPIPE_LOOP_LIMIT = 65535 };
@@ -114,6 +115,7 @@ void osmesa_caps_find(fm_device_caps *caps, const fm_gl *gl)
     const char *mesa = strstr(version, "Mesa");
     snprintf(caps->name, sizeof caps->name, "%s", (const char *)gl->GetString(GL_RENDERER));
     snprintf(caps->driver, sizeof caps->driver, "%s", mesa != NULL ? mesa : version);
+    library_build(caps->driver_build, sizeof caps->driver_build, (uintptr_t)OSMesaGetProcAddress);
     snprintf(caps->api, sizeof caps->api, "OpenGL %d.%d (core)", get_integer(gl, GL_MAJOR_VERSION),
              get_integer(gl, GL_MINOR_VERSION));
 }

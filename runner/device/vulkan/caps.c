@@ -17,13 +17,36 @@ static uint64_t device_local_bytes(const VkPhysicalDeviceMemoryProperties *memor
     return bytes;
 }
 
+static char *add_uuid(char *at, const uint8_t uuid[VK_UUID_SIZE])
+{
+    for (size_t i = 0; i < VK_UUID_SIZE; i++)
+        at += sprintf(at, "%02x", uuid[i]);
+    return at;
+}
+
+/* The cache's UUID differs where compiled shaders may; the other parts are for drivers that keep
+ * it. */
+static void describe_build(char build[sizeof((fm_device_caps *)NULL)->driver_build],
+                           const VkPhysicalDeviceProperties *core,
+                           const VkPhysicalDeviceVulkan11Properties *core11,
+                           const VkPhysicalDeviceVulkan12Properties *core12)
+{
+    char *at = add_uuid(build, core->pipelineCacheUUID);
+    *at++ = ' ';
+    at = add_uuid(at, core11->driverUUID);
+    sprintf(at, " %d %08x %04x:%04x", (int)core12->driverID, core->driverVersion, core->vendorID,
+            core->deviceID);
+}
+
 static void describe(vulkan *self, const VkPhysicalDeviceProperties *core,
+                     const VkPhysicalDeviceVulkan11Properties *core11,
                      const VkPhysicalDeviceVulkan12Properties *core12)
 {
     fm_device_caps *caps = &self->base.caps;
     snprintf(caps->name, sizeof caps->name, "%.127s", core->deviceName);
     snprintf(caps->driver, sizeof caps->driver, "%.63s %.63s", core12->driverName,
              core12->driverInfo);
+    describe_build(caps->driver_build, core, core11, core12);
     snprintf(caps->api, sizeof caps->api, "Vulkan %u.%u.%u", VK_API_VERSION_MAJOR(core->apiVersion),
              VK_API_VERSION_MINOR(core->apiVersion), VK_API_VERSION_PATCH(core->apiVersion));
 }
@@ -76,7 +99,7 @@ void vulkan_caps_find(vulkan *self)
     vkGetPhysicalDeviceMemoryProperties(self->physical, &self->memory);
     const VkPhysicalDeviceType type = core.properties.deviceType;
     const bool is_lavapipe = core12.driverID == VK_DRIVER_ID_MESA_LLVMPIPE;
-    describe(self, &core.properties, &core12);
+    describe(self, &core.properties, &core11, &core12);
     set_limits(self, &core.properties.limits, &core11, &core13);
     set_timestamps(self);
     caps->is_software = type == VK_PHYSICAL_DEVICE_TYPE_CPU;

@@ -4,12 +4,15 @@
 
 #include "base/error.h"
 #include "base/path.h"
+#include "code.h"
 
 /* Folders that shader files come from; borrowed. */
 typedef struct fm_shader_folders {
-    const char *method; /* the plugin's folder */
-    const char *common; /* the runner's GLSL, beside which the methods lie that come with it; NULL
-                           or "": not known */
+    const char *method;  /* the plugin's folder */
+    const char *common;  /* the runner's GLSL, beside which the methods lie that come with it; NULL
+                            or "": not known */
+    fm_code *code;       /* each file that is read is noted here; NULL: nobody asks */
+    fm_code_owner owner; /* whose `method` is */
 } fm_shader_folders;
 
 /* The path of a file as a descriptor or an #include names it:

@@ -1,0 +1,125 @@
+/* What an earlier run in the same directory left, from its journal. */
+#include <stdlib.h>
+#include <string.h>
+#include <xxhash.h>
+
+#include "run_internal.h"
+
+/* What makes two runs the same run: what they measure, how often, and in which order. */
+static void plan_hash(char hash[17], const fm_plan *plan, const fm_run_desc *desc)
+{
+    XXH3_state_t *state = XXH3_createState();
+    const uint64_t numbers[] = { plan->seed,   plan->launches,   plan->frames,
+                                 plan->warmup, desc->validation, desc->no_timers };
+    hash[0] = '\0';
+    if (state == NULL)
+        return;
+    XXH3_64bits_reset(state);
+    XXH3_64bits_update(state, numbers, sizeof numbers);
+    for (size_t i = 0; i < plan->count; i++)
+        XXH3_64bits_update(state, plan->cases[i].id, strlen(plan->cases[i].id) + 1);
+    snprintf(hash, 17, "%016llx", (unsigned long long)XXH3_64bits_digest(state));
+    XXH3_freeState(state);
+}
+
+fm_status run_find_case(size_t *case_index, const run_state *run, const char *id, uint32_t launch,
+                        fm_error *err)
+{
+    size_t i = 0;
+    while (i < run->plan->count && strcmp(run->plan->cases[i].id, id) != 0)
+        i++;
+    *case_index = i;
+    return i == run->plan->count || launch >= plan_case_launches(run->plan, i)
+               ? fm_fail(err, FM_INVALID, "case %.32s, launch %u is not of this plan", id, launch)
+               : FM_OK;
+}
+
+static fm_status replay_event(run_state *run, fm_journal_event event, size_t i, uint32_t launch,
+                              const json_t *result, fm_error *err)
+{
+    fm_launch_state *state = &run->results->cases[i].launches[launch];
+    switch (event) {
+    case FM_JOURNAL_BEGIN: /* what began and has no end is measured again: nobody is to blame */
+    case FM_JOURNAL_STOP:
+        return FM_OK;
+    case FM_JOURNAL_DIED:
+        free(state->death);
+        state->death = strdup(answer_message(result));
+        return state->death != NULL ? FM_OK : fm_fail(err, FM_NO_MEMORY, "no memory for a death");
+    case FM_JOURNAL_END:
+        results_take_mesh(run->results, result);
+        return state->is_done ? fm_fail(err, FM_INVALID, "launch %u ended twice", launch)
+                              : results_add(run->results, i, launch, result, err);
+    case FM_JOURNAL_FORGET:
+    case FM_JOURNAL_EVENT_COUNT:
+        break;
+    }
+    return fm_fail(err, FM_INVALID, "unknown event");
+}
+
+/* What a case has above its last FORGET is as if it had never been. */
+static fm_status replay(void *context, fm_journal_event event, const char *case_id, uint32_t launch,
+                        const json_t *result, fm_error *err)
+{
+    run_state *run = context;
+    size_t i;
+    const fm_status status = run_find_case(&i, run, case_id, launch, err);
+    if (status != FM_OK || run->codes.rows[i].forgets == 0)
+        return status == FM_OK ? replay_event(run, event, i, launch, result, err) : status;
+    run->codes.rows[i].forgets -= event == FM_JOURNAL_FORGET;
+    return FM_OK;
+}
+
+/* After run_read_codes, which counts what is forgotten. */
+static fm_status read_results(run_state *run, fm_error *err)
+{
+    const fm_journal_reader reader = { .line = replay, .context = run };
+    results_destroy(run->results);
+    fm_status status = results_create(&run->results, run->plan, run->plugins, run->desc->directory,
+                                      journal_run_id(run->journal), err);
+    if (status == FM_OK)
+        status = journal_replay(run->journal, &reader, &run->is_damaged, err);
+    return status;
+}
+
+fm_status run_forget(run_state *run, size_t case_index, fm_error *err)
+{
+    run_remove_images(run, case_index);
+    run->forgotten++;
+    return journal_write(run->journal, FM_JOURNAL_FORGET, run->plan->cases[case_index].id, 0, NULL,
+                         err);
+}
+
+/* Rows of statuses that are to be measured anew. A case that is not to be launched has nothing to
+ * forget. */
+static fm_status forget_retried(run_state *run, fm_error *err)
+{
+    const uint32_t before = run->forgotten;
+    fm_status status = FM_OK;
+    for (size_t i = 0; i < run->plan->count && status == FM_OK; i++) {
+        const fm_case_result *kept = &run->results->cases[i];
+        if (kept->done > 0 && (run->desc->retried & 1u << kept->status) != 0)
+            status = run_forget(run, i, err);
+    }
+    if (status != FM_OK || run->forgotten == before)
+        return status;
+    status = run_read_codes(run, err);
+    return status == FM_OK ? read_results(run, err) : status;
+}
+
+fm_status run_resume(run_state *run, fm_error *err)
+{
+    char hash[17];
+    plan_hash(hash, run->plan, run->desc);
+    fm_status status =
+        journal_open(&run->journal, run->desc->directory, hash, &run->is_damaged, err);
+    if (status == FM_OK)
+        status = run_read_codes(run, err);
+    if (status == FM_OK)
+        status = run_check_codes(run, err);
+    if (status == FM_OK)
+        status = read_results(run, err);
+    if (status == FM_OK)
+        status = forget_retried(run, err);
+    return status;
+}
