@@ -12,6 +12,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "answer_check.h"
 #include "base/clock.h"
 #include "base/text.h"
 #include "worker/protocol.h"
@@ -256,7 +257,7 @@ static bool says_no_answer(const ending *end)
 
 static json_t *read_result(const ending *end, const fm_launch_desc *desc, off_t log_from)
 {
-    char *bytes = NULL, message[512];
+    char *bytes = NULL, message[600];
     size_t count = 0;
     fm_error below = { 0 };
     json_error_t fault = { 0 };
@@ -269,12 +270,16 @@ static json_t *read_result(const ending *end, const fm_launch_desc *desc, off_t 
         return answer_make(FM_CASE_CRASH, below.message);
     result = json_loadb(bytes, count, JSON_REJECT_DUPLICATES, &fault);
     free(bytes);
-    const char *why = result == NULL ? fault.text : answer_fault(result);
-    if (why == NULL)
+    const fm_status checked =
+        result != NULL ? answer_check(result, desc->frames, &below)
+                       : fm_fail(&below, FM_INVALID, "line %d: %s", fault.line, fault.text);
+    if (checked == FM_OK)
         return result;
     json_decref(result);
-    snprintf(message, sizeof message, "the worker's result cannot be used: %s (exit status %d)",
-             why, WEXITSTATUS(end->wait_status));
+    if (checked == FM_NO_MEMORY)
+        return NULL;
+    snprintf(message, sizeof message, "the worker's result cannot be used: %.400s (exit status %d)",
+             below.message, WEXITSTATUS(end->wait_status));
     return answer_make(FM_CASE_CRASH, message);
 }
 

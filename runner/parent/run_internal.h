@@ -38,6 +38,8 @@ void run_remove_truths(const run_state *run);
 /* run_step.c */
 /* The case is to be launched, and not finished. */
 bool run_is_pending(const run_state *run, size_t case_index);
+/* How many frames a launch may speak of: those that are timed, or those of its sequence. */
+uint32_t run_frames(const run_state *run, const fm_settings *settings);
 /* Writes the end of a launch into journal, tables and, if it was the case's last, the summary. */
 fm_status run_end_launch(run_state *run, size_t case_index, uint32_t launch, json_t *answer,
                          fm_error *err);

@@ -26,6 +26,12 @@ fm_status run_end_launch(run_state *run, size_t case_index, uint32_t launch, jso
     return status;
 }
 
+uint32_t run_frames(const run_state *run, const fm_settings *settings)
+{
+    return generator_makes_frames(settings->generator) ? settings->sequence_frames
+                                                       : run->plan->frames;
+}
+
 static void tick(void *context)
 {
     progress_tick(context);
@@ -61,6 +67,7 @@ static fm_status ask(fm_launch_outcome *outcome, run_state *run, const char *nam
         .request = request_path,
         .result = result_path,
         .log = log_path,
+        .frames = run_frames(run, request->settings),
         .timeout_s = run->desc->timeout_s != 0 ? run->desc->timeout_s : TIMEOUT_DEFAULT_S,
         .memory_bytes = run->desc->memory_bytes,
         .input = settings_file(request->settings),

@@ -252,63 +252,6 @@ json_t *answer_make_runs_fault(const char *message)
     return answer;
 }
 
-static const char *sample_fault(const json_t *sample)
-{
-    const json_t *frame = json_object_get(sample, "frame");
-    if (!json_is_integer(frame) || json_integer_value(frame) < 0 ||
-        json_integer_value(frame) > UINT32_MAX ||
-        !json_is_string(json_object_get(sample, "metric")) ||
-        !json_is_number(json_object_get(sample, "value")))
-        return "a sample lacks frame, metric or value";
-    return NULL;
-}
-
-/* An object whose members are numbers; NULL is one of none. */
-static bool is_of_numbers(json_t *object)
-{
-    const char *name;
-    json_t *value;
-    if (object != NULL && !json_is_object(object))
-        return false;
-    json_object_foreach(object, name, value)
-    {
-        if (!json_is_number(value))
-            return false;
-    }
-    return true;
-}
-
-const char *answer_fault(const json_t *answer)
-{
-    fm_case_status status;
-    size_t index;
-    const json_t *sample;
-    const json_t *samples = json_object_get(answer, "samples");
-    const json_t *metrics = json_object_get(answer, "metrics");
-    const json_t *hashes = answer_image_hashes(answer);
-    if (!json_is_object(answer))
-        return "not an object";
-    if (!case_status_parse(&status, json_string_value(json_object_get(answer, "status"))))
-        return "'status' is none of the known words";
-    if ((status == FM_CASE_SKIPPED) != answer_is_runs_fault(answer))
-        return "'status' and 'is_runs_fault' contradict each other";
-    if (metrics != NULL && !json_is_object(metrics))
-        return "'metrics' is not an object";
-    if (!is_of_numbers(answer_launch(answer)))
-        return "'launch' is not an object of numbers";
-    if (samples != NULL && !json_is_array(samples))
-        return "'samples' is not a list";
-    if (hashes != NULL && !json_is_array(hashes))
-        return "'image_hashes' is not a list";
-    json_array_foreach(samples, index, sample)
-    {
-        const char *fault = sample_fault(sample);
-        if (fault != NULL)
-            return fault;
-    }
-    return NULL;
-}
-
 fm_case_status answer_status(const json_t *answer)
 {
     fm_case_status status = FM_CASE_CRASH;
