@@ -24,7 +24,8 @@ typedef enum fm_journal_event {
 
 /* What the lines of an earlier run tell, in order. */
 typedef struct fm_journal_reader {
-    /* result is borrowed; NULL but for FM_JOURNAL_END. FM_INVALID: no such case or launch. */
+    /* result is borrowed; NULL but for FM_JOURNAL_END. FM_INVALID: the line cannot be used: no such
+     * case or launch, out of order, a result that cannot be. Other failures end the replay. */
     fm_status (*line)(void *context, fm_journal_event event, const char *case_id, uint32_t launch,
                       const json_t *result, fm_error *err);
     void *context;
@@ -32,10 +33,16 @@ typedef struct fm_journal_reader {
 
 /* Opens or makes DIRECTORY/journal.jsonl.
  * FM_INVALID: in use by another run, or of another plan. FM_IO: damaged, foreign or not writable;
- * *is_damaged tells the first two. A torn last line, which a killed run leaves, is cut off. */
+ * *is_damaged tells the first two. */
 fm_status journal_open(fm_journal **journal, const char *directory, const char *plan_hash,
                        bool *is_damaged, fm_error *err);
-/* Tells the reader all launches of the run so far; once, before the first journal_write. */
+/* Whether the directory has a journal with a first line: without one, results there are not ours.
+ */
+bool journal_is_begun(const char *directory);
+/* Tells the reader all launches of the run so far; once, before the first journal_write. A torn
+ * last line, which a killed run leaves, is cut off once all others were understood. Lines that
+ * cannot be used are FM_IO with *is_damaged: the message names the first, how many can be used, and
+ * a command that takes the others out and keeps the file as it is. Nothing is changed then. */
 fm_status journal_replay(fm_journal *journal, const fm_journal_reader *reader, bool *is_damaged,
                          fm_error *err);
 void journal_close(fm_journal *journal);

@@ -6,6 +6,7 @@
 #include <unistd.h>
 #include <xxhash.h>
 
+#include "answer_check.h"
 #include "base/random.h"
 #include "manifest.h"
 #include "noise.h"
@@ -29,6 +30,18 @@ static void plan_hash(char hash[17], const fm_plan *plan, const fm_run_desc *des
     XXH3_freeState(state);
 }
 
+/* Nobody keeps a journal from being edited: an answer in it is held to what one of a worker is. */
+static fm_status replay_end(run_state *run, size_t i, uint32_t launch, const json_t *result,
+                            fm_error *err)
+{
+    const fm_status status =
+        answer_check(result, run_frames(run, &run->plan->cases[i].settings), err);
+    if (status != FM_OK)
+        return status;
+    results_take_mesh(run->results, result);
+    return results_add(run->results, i, launch, result, err);
+}
+
 static fm_status replay(void *context, fm_journal_event event, const char *case_id, uint32_t launch,
                         const json_t *result, fm_error *err)
 {
@@ -42,15 +55,18 @@ static fm_status replay(void *context, fm_journal_event event, const char *case_
     fm_launch_state *state = &run->results->cases[i].launches[launch];
     switch (event) {
     case FM_JOURNAL_BEGIN:
+        if (state->is_done)
+            return fm_fail(err, FM_INVALID, "launch %u begins after its end", launch);
         state->begins++;
         return FM_OK;
     case FM_JOURNAL_STOP:
+        if (state->is_done || state->begins == 0)
+            return fm_fail(err, FM_INVALID, "launch %u stops and had not begun", launch);
         state->begins = 0;
         return FM_OK;
     case FM_JOURNAL_END:
-        results_take_mesh(run->results, result);
         return state->is_done ? fm_fail(err, FM_INVALID, "launch %u ended twice", launch)
-                              : results_add(run->results, i, launch, result, err);
+                              : replay_end(run, i, launch, result, err);
     case FM_JOURNAL_EVENT_COUNT:
         break;
     }
@@ -88,6 +104,8 @@ static fm_status resume(run_state *run, fm_error *err)
                                 journal_run_id(run->journal), err);
     if (status == FM_OK)
         status = journal_replay(run->journal, &reader, &run->is_damaged, err);
+    if (status == FM_OK)
+        status = results_keep_replayed(run->results, err);
     if (status == FM_OK)
         status = bury_killers(run, err);
     return status;
