@@ -51,23 +51,55 @@ static void request_comes_back_as_it_was_written(void **state)
     unlink(path);
 }
 
+#define REQUEST(job, launch, check, settings, options)                                             \
+    "{\"job\": " job ", \"plugin\": \"\", \"floor\": \"\", \"common\": \"\", \"device\": \"\", "   \
+    "\"validation\": false, \"no_timers\": false, \"feed\": \"\", \"settings\": {" settings        \
+    "}, \"options\": {" options "}, \"truth\": \"\", \"launch\": " launch ", \"check\": " check    \
+    ", \"image\": \"\"}"
+
+static fm_status read_text(const char *text, fm_error *err)
+{
+    char path[] = "/tmp/fragmark-request-XXXXXX";
+    fm_read_request read = { 0 };
+    const int fd = mkstemp(path);
+    assert_int_equal(write(fd, text, strlen(text)), strlen(text));
+    close(fd);
+    const fm_status status = request_read(&read, path, err);
+    request_free(&read);
+    unlink(path);
+    return status;
+}
+
 static void request_read_refuses_what_is_no_request(void **state)
 {
     (void)state;
-    static const char *const texts[] = { "[", "{\"settings\": {\"colour\": \"red\"}}",
-                                         "{\"settings\": {\"k\": \"many\"}}",
-                                         "{\"options\": {\"layout\": 3}}" };
-    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
-        char path[] = "/tmp/fragmark-request-XXXXXX";
-        fm_read_request read = { 0 };
-        fm_error err = { 0 };
-        const int fd = mkstemp(path);
-        assert_int_equal(write(fd, texts[i], strlen(texts[i])), strlen(texts[i]));
-        close(fd);
-        assert_int_not_equal(request_read(&read, path, &err), FM_OK);
-        assert_true(err.message[0] != '\0');
-        request_free(&read);
-        unlink(path);
+    static const struct {
+        const char *text, *words;
+    } rows[] = {
+        { "[", ":1: " },
+        { "[]", "'job' is missing" },
+        { "{\"job\": \"truth\"}", "'plugin' is missing" },
+        { REQUEST("\"sleep\"", "0", "true", "", ""), "'job' is none that is known" },
+        { REQUEST("7", "0", "true", "", ""), "'job' is missing or of another kind" },
+        { REQUEST("\"mesh\"", "\"0\"", "true", "", ""), "'launch' is missing or of another kind" },
+        { REQUEST("\"mesh\"", "-1", "true", "", ""), "'launch' is -1" },
+        { REQUEST("\"mesh\"", "4294967296", "true", "", ""), "'launch' is 4294967296" },
+        { REQUEST("\"mesh\"", "0", "1", "", ""), "'check' is missing or of another kind" },
+        { REQUEST("\"mesh\"", "0", "true, \"check\": false", "", ""), "duplicate" },
+        { REQUEST("\"mesh\"", "0", "true", "\"colour\": \"red\"", ""), "colour" },
+        { REQUEST("\"mesh\"", "0", "true", "\"k\": \"many\"", ""), "k" },
+        { REQUEST("\"mesh\"", "0", "true", "", "\"layout\": 3"), "layout" },
+        { REQUEST("\"mesh\"", "0", "true", "",
+                  "\"layout\": \"0123456789012345678901234567890123456789012345678901234567890"
+                  "123456789012345678901234567890123456789012345678901234567890123456789\""),
+          "'layout' is too long" },
+    };
+    fm_error err = { 0 };
+    assert_int_equal(read_text(REQUEST("\"mesh\"", "0", "true", "\"k\": \"3\"", ""), &err), FM_OK);
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        const fm_status status = read_text(rows[i].text, &err);
+        if (status == FM_OK || strstr(err.message, rows[i].words) == NULL)
+            fail_msg("row %zu: %d, '%s' lacks '%s'", i, status, err.message, rows[i].words);
     }
 }
 
