@@ -1,5 +1,7 @@
 #include "metrics.h"
 
+#include <float.h>
+#include <math.h>
 #include <string.h>
 
 #define LESS     .better = FM_BETTER_LESS
@@ -11,6 +13,20 @@
 #define REPORT   .of = FM_OF_REPORT
 #define MEASURED .is_measured = true
 #define TIMED    .is_measured = true, .is_timed = true
+#define WHOLE    .range = FM_RANGE_COUNT
+#define BYTES    .range = FM_RANGE_BYTES
+#define FINITE   .range = FM_RANGE_FINITE
+#define ERRORS   .range = FM_RANGE_ERROR
+#define LEVEL    .range = FM_RANGE_LEVEL
+
+const fm_range fm_ranges[FM_RANGE_KINDS] = {
+    [FM_RANGE_AMOUNT] = { 0, DBL_MAX, .words = "a number from 0" },
+    [FM_RANGE_COUNT] = { 0, 0x1p53, .is_whole = true, .words = "a whole number from 0 to 2^53" },
+    [FM_RANGE_BYTES] = { 0, 0x1p48, .is_whole = true, .words = "a whole number from 0 to 2^48" },
+    [FM_RANGE_FINITE] = { -DBL_MAX, DBL_MAX, .words = "a finite number" },
+    [FM_RANGE_ERROR] = { 0, INFINITY, .may_be_none = true, .words = "a number from 0, or none" },
+    [FM_RANGE_LEVEL] = { -INFINITY, INFINITY, .may_be_none = true, .words = "a number, or none" },
+};
 
 /* clang-format off */
 const fm_metric_info fm_metrics[FM_METRIC_COUNT] = {
@@ -34,91 +50,91 @@ const fm_metric_info fm_metrics[FM_METRIC_COUNT] = {
     [FM_METRIC_CANARY_NS] = { "canary_ns", "canary", "ns",
         "an empty timed interval: where it grows, the GPU's clock has fallen", FRAME, TIMED },
     [FM_METRIC_OFF_CLOCK] = { "off_clock", "off clock", "",
-        "1 for a frame that was not at full clock; its times count for nothing", FRAME, MEASURED },
+        "1 for a frame that was not at full clock; its times count for nothing", FRAME, MEASURED, WHOLE },
     [FM_METRIC_BYTES_ALLOCATED] = { "bytes_allocated", "memory", "B",
-        "what the method asked the device for", CASE, LESS },
+        "what the method asked the device for", CASE, LESS, BYTES },
     [FM_METRIC_BYTES_PREDICTED] = { "bytes_predicted", "memory, formula", "B",
-        "what the descriptor's formula says", CASE, LESS },
+        "what the descriptor's formula says", CASE, LESS, BYTES },
     [FM_METRIC_BYTES_USED] = { "bytes_used", "memory, used", "B",
-        "bytes of elements that hold something in a frame", CASE, LESS },
-    [FM_METRIC_N] = { "n", "n", "", "the most fragments of any pixel: of layers as many as the recipe has, else as truth counted", CASE },
+        "bytes of elements that hold something in a frame", CASE, LESS, BYTES },
+    [FM_METRIC_N] = { "n", "n", "", "the most fragments of any pixel: of layers as many as the recipe has, else as truth counted", CASE, WHOLE },
     [FM_METRIC_FRAGMENTS_GENERATED] = { "fragments_generated", "fragments", "",
-        "all fragments of the scene", CASE },
+        "all fragments of the scene", CASE, WHOLE },
     [FM_METRIC_FRAGMENTS_ARRIVED] = { "fragments_arrived", "fragments arrived", "",
-        "fragments that pass store saw; an occupancy map culled the others", CASE },
+        "fragments that pass store saw; an occupancy map culled the others", CASE, WHOLE },
     [FM_METRIC_FRAGMENTS_CULLED] = { "fragments_culled", "fragments culled", "",
-        "of those, what the method's own test refused", CASE, MEASURED },
+        "of those, what the method's own test refused", CASE, MEASURED, WHOLE },
     [FM_METRIC_FRAGMENTS_STORED] = { "fragments_stored", "fragments stored", "",
-        "fragments that the method handed over", CASE },
+        "fragments that the method handed over", CASE, WHOLE },
     [FM_METRIC_FRAGMENTS_LOST] = { "fragments_lost", "lost", "",
-        "fragments that found no room, or ran out of tries for a lock", CASE, LESS, MEASURED },
+        "fragments that found no room, or ran out of tries for a lock", CASE, LESS, MEASURED, WHOLE },
     [FM_METRIC_NONEMPTY_PIXELS] = { "nonempty_pixels", "covered pixels", "",
-        "pixels with at least one fragment", CASE },
+        "pixels with at least one fragment", CASE, WHOLE },
     [FM_METRIC_TRUTH_DIGEST] = { "truth_digest", "truth", "",
-        "hash of all fragments of the scene in their order, a number of 48 bits: equal for equal truths", CASE },
+        "hash of all fragments of the scene in their order, a number of 48 bits: equal for equal truths", CASE, WHOLE },
     [FM_METRIC_DISCARDED_SHARE] = { "discarded_share", "discarded", "",
-        "of the fragments beyond the k nearest, the share that was not stored", CASE, MORE, MEASURED },
+        "of the fragments beyond the k nearest, the share that was not stored", CASE, MORE, MEASURED, FINITE },
     [FM_METRIC_TAKEN_PER_KEPT] = { "taken_per_kept", "taken per kept", "",
         "fragments that the method took for each that it keeps", CASE, LESS, MEASURED },
     [FM_METRIC_LOCKS_TAKEN] = { "locks_taken", "locks taken", "", "times that a pixel's lock was taken",
-        CASE, LESS, MEASURED },
+        CASE, LESS, MEASURED, WHOLE },
     [FM_METRIC_CULL_WORDS] = { "cull_words", "words of the map", "",
-        "words of 32 buckets that a pixel of the occupancy map has", CASE },
+        "words of 32 buckets that a pixel of the occupancy map has", CASE, WHOLE },
     [FM_METRIC_K_CHOSEN] = { "k_chosen", "k chosen", "", "the k that the method chose for the frame",
-        CASE },
+        CASE, WHOLE },
     [FM_METRIC_SCENE_PASSES] = { "scene_passes", "passes over the scene", "",
-        "how often a frame draws the scene", CASE, LESS },
+        "how often a frame draws the scene", CASE, LESS, WHOLE },
     [FM_METRIC_FRAMES_REDONE] = { "frames_redone", "frames redone", "",
-        "frames that were run again because a buffer had to grow", CASE, LESS },
+        "frames that were run again because a buffer had to grow", CASE, LESS, WHOLE },
     [FM_METRIC_REDONE_MS] = { "redone_ms", "redone", "ms",
         "the passes of all those frames: the cost of growing beside frame_ms", CASE, LESS, TIMED },
     [FM_METRIC_FRAMES_LOSSY] = { "frames_lossy", "lossy frames", "",
-        "frames that were run again because a software rasteriser's lock gave up", CASE, LESS, MEASURED },
+        "frames that were run again because a software rasteriser's lock gave up", CASE, LESS, MEASURED, WHOLE },
     [FM_METRIC_MISSING] = { "missing", "missing", "", "wanted fragments that were not captured", CASE,
-        LESS },
+        LESS, WHOLE },
     [FM_METRIC_EXTRA] = { "extra", "extra", "", "captured fragments that the pixel does not have", CASE,
-        LESS },
+        LESS, WHOLE },
     [FM_METRIC_MISORDERED] = { "misordered", "misordered", "", "neighbours in the wrong order", CASE,
-        LESS },
+        LESS, WHOLE },
     [FM_METRIC_DEPTH_ULP_MAX] = { "depth_ulp_max", "depth off", "ulp",
         "the largest distance of a captured depth from its true one, in units in the last place", CASE,
-        LESS },
+        LESS, WHOLE },
     [FM_METRIC_WRONG_PIXELS] = { "wrong_pixels", "wrong pixels", "",
-        "pixels with a missing, extra or misordered fragment", CASE, LESS },
+        "pixels with a missing, extra or misordered fragment", CASE, LESS, WHOLE },
     [FM_METRIC_TIED_PIXELS] = { "tied_pixels", "tied pixels", "",
         "pixels where wanted fragments of equal depth differ in colour: truth allows every order of them, "
-        "and an image's error is its distance to what these orders reach", CASE },
+        "and an image's error is its distance to what these orders reach", CASE, WHOLE },
     [FM_METRIC_SELF_MAX_ABS] = { "self_max_abs", "off its fragments", "",
         "the largest distance, of any channel, of the timed image from the captured fragments composited "
-        "in double precision, in any order that ties allow", CASE, LESS },
+        "in double precision, in any order that ties allow", CASE, LESS, ERRORS },
     [FM_METRIC_RMSE] = { "rmse", "RMSE", "",
         "root mean squared error over all pixels of the viewport and four channels, linear and "
         "premultiplied, against the picture of the fragments that the method is to keep; where depths "
         "tie, against the nearest of all pictures that truth allows; of a sequence over all its frames, "
-        "against the baseline's", CASE, LESS },
+        "against the baseline's", CASE, LESS, ERRORS },
     [FM_METRIC_PSNR_DB] = { "psnr_db", "PSNR", "dB", "-20 log10 of rmse; inf for equal images", CASE,
-        MORE },
+        MORE, LEVEL },
     [FM_METRIC_MAX_ABS] = { "max_abs", "largest error", "",
-        "the largest error of any channel of any pixel, in any frame of a sequence", CASE, LESS },
+        "the largest error of any channel of any pixel, in any frame of a sequence", CASE, LESS, ERRORS },
     [FM_METRIC_SSIM] = { "ssim", "SSIM", "",
         "structural similarity, mean over windows, in a sequence those of all frames; 1 for equal "
-        "images", CASE, MORE },
-    [FM_METRIC_FLIP] = { "flip", "FLIP", "", "not computed yet: the column is empty", CASE, LESS },
+        "images", CASE, MORE, LEVEL },
+    [FM_METRIC_FLIP] = { "flip", "FLIP", "", "not computed yet: the column is empty", CASE, LESS, ERRORS },
     [FM_METRIC_TRUNCATION_RMSE] = { "truncation_rmse", "truncation", "",
         "rmse of the fragments that the method is to keep (the k nearest; the nearest; all: 0) against all "
-        "of them: what keeping only k costs, however well the method does it", CASE, LESS },
+        "of them: what keeping only k costs, however well the method does it", CASE, LESS, ERRORS },
     [FM_METRIC_TOTAL_RMSE] = { "total_rmse", "total", "",
-        "rmse of the image against the picture of all fragments", CASE, LESS },
+        "rmse of the image against the picture of all fragments", CASE, LESS, ERRORS },
     [FM_METRIC_DISTINCT_IMAGES] = { "distinct_images", "distinct images", "",
-        "how many different images all timed frames drew", SUMMARY, LESS, MEASURED },
+        "how many different images all timed frames drew", SUMMARY, LESS, MEASURED, WHOLE },
     [FM_METRIC_TIMES_FLOOR] = { "times_floor", "x floor", "",
         "store_ms over floor_store_ms of the same launch, median of the launches (timers=frame: of frames)", SUMMARY, LESS,
         TIMED },
     [FM_METRIC_FRAGMENTS_PER_S] = { "fragments_per_s", "fragments/s", "1/s",
         "fragments_generated over frame_ms", SUMMARY, MORE, TIMED },
-    [FM_METRIC_LAUNCHES] = { "launches", "launches", "", "processes that measured the case", SUMMARY },
+    [FM_METRIC_LAUNCHES] = { "launches", "launches", "", "processes that measured the case", SUMMARY, WHOLE },
     [FM_METRIC_SAMPLES] = { "samples", "samples", "", "timed frames that count, of all launches",
-        SUMMARY, MEASURED },
+        SUMMARY, MEASURED, WHOLE },
     [FM_METRIC_FPS] = { "fps", "frames per second", "1/s", "1000 over frame_ms", REPORT, MORE, TIMED },
     [FM_METRIC_MIB] = { "mib", "memory", "MiB", "bytes_allocated over 2^20", REPORT, LESS },
     [FM_METRIC_FPS_PER_MIB] = { "fps_per_mib", "frames per second and MiB", "1/(s MiB)", "fps over mib",
@@ -128,9 +144,9 @@ const fm_metric_info fm_metrics[FM_METRIC_COUNT] = {
     [FM_METRIC_ENERGY_NJ] = { "energy_nj", "energy", "nJ",
         "modelled energy of all frames but the first", CASE, LESS },
     [FM_METRIC_WRONG_TILES] = { "wrong_tiles", "wrong tiles", "",
-        "tiles, of all frames, whose colours are not the baseline's", CASE, LESS },
+        "tiles, of all frames, whose colours are not the baseline's", CASE, LESS, WHOLE },
     [FM_METRIC_WRONG_FRAMES] = { "wrong_frames", "wrong frames", "", "frames with such a tile", CASE,
-        LESS },
+        LESS, WHOLE },
     [FM_METRIC_SIMULATED_RATE] = { "simulated_fragments_per_core_s", "simulated", "1/s",
         "fragments that a core of the host simulates in a second", CASE, MORE, TIMED },
     [FM_METRIC_FRAME_CYCLES] = { "frame.cycles", "cycles of a frame", "", "modelled cycles", FRAME,
@@ -138,11 +154,11 @@ const fm_metric_info fm_metrics[FM_METRIC_COUNT] = {
     [FM_METRIC_FRAME_ENERGY_NJ] = { "frame.energy_nj", "energy of a frame", "nJ", "modelled energy",
         FRAME, LESS },
     [FM_METRIC_FRAME_TILES_SKIPPED] = { "frame.tiles_skipped", "tiles skipped in a frame", "",
-        "tiles that kept their colours", FRAME, MORE },
+        "tiles that kept their colours", FRAME, MORE, WHOLE },
     [FM_METRIC_FRAME_FRAGMENTS_SHADED] = { "frame.fragments_shaded", "fragments shaded in a frame", "",
-        "fragments that were shaded", FRAME, LESS },
+        "fragments that were shaded", FRAME, LESS, WHOLE },
     [FM_METRIC_FRAME_WRONG_TILES] = { "frame.wrong_tiles", "wrong tiles in a frame", "",
-        "tiles whose colours are not the baseline's", FRAME, LESS },
+        "tiles whose colours are not the baseline's", FRAME, LESS, WHOLE },
     [FM_METRIC_LAUNCH_CPU_S] = { "launch_cpu_s", "processor time of the launch", "s",
         "user and system time of the launch's process", LAUNCH, LESS, TIMED },
     [FM_METRIC_TIMED_S] = { "timed_s", "timed part", "s",
@@ -155,7 +171,7 @@ const fm_metric_info fm_metrics[FM_METRIC_COUNT] = {
     [FM_METRIC_OTHERS_CPU_S] = { "others_cpu_s", "processor time of others", "s",
         "what all other processes used meanwhile, and what a hypervisor took", LAUNCH, LESS, TIMED },
     [FM_METRIC_INVOLUNTARY_SWITCHES] = { "involuntary_switches", "involuntary switches", "",
-        "how often a thread of the process lost its processor meanwhile", LAUNCH, LESS, MEASURED },
+        "how often a thread of the process lost its processor meanwhile", LAUNCH, LESS, MEASURED, WHOLE },
     [FM_METRIC_LOAD_BEGIN] = { "load_begin", "load before", "",
         "load average of the last minute before the timed frames: threads that ran or were ready",
         LAUNCH, LESS, MEASURED },
@@ -163,7 +179,7 @@ const fm_metric_info fm_metrics[FM_METRIC_COUNT] = {
     [FM_METRIC_THROTTLED_S] = { "throttled_s", "throttled", "s",
         "how long the control group's limit stopped its processes meanwhile", LAUNCH, LESS, TIMED },
     [FM_METRIC_THERMAL_EVENTS] = { "thermal_events", "thermal events", "",
-        "how often a processor was slowed down for heat meanwhile", LAUNCH, LESS, MEASURED },
+        "how often a processor was slowed down for heat meanwhile", LAUNCH, LESS, MEASURED, WHOLE },
     [FM_METRIC_CLOCK_SHARE] = { "clock_share", "share of the clock", "",
         "clock of the slowest processor over the highest, after the timed frames", LAUNCH, MORE,
         MEASURED },
@@ -193,6 +209,14 @@ bool metric_find(fm_metric *metric, const char *name)
         return true;
     }
     return false;
+}
+
+bool metric_in_range(fm_metric_range range, double value)
+{
+    const fm_range *of = &fm_ranges[range];
+    if (isnan(value))
+        return of->may_be_none;
+    return value >= of->least && value <= of->most && (!of->is_whole || fmod(value, 1.0) == 0.0);
 }
 
 /* What is before the ending of an interval's end is a metric. */

@@ -112,6 +112,24 @@ typedef enum fm_metric_of {
     FM_OF_REPORT   /* a case, worked out when it is charted: no file has it */
 } fm_metric_of;
 
+/* Which values a metric can have: what a worker says beyond them is no result. */
+typedef enum fm_metric_range {
+    FM_RANGE_AMOUNT, /* finite, from 0: times, energies, ratios of such */
+    FM_RANGE_COUNT,  /* a whole number that a double holds, from 0 to 2^53 */
+    FM_RANGE_BYTES,  /* the same to 2^48: more than any address */
+    FM_RANGE_FINITE,
+    FM_RANGE_ERROR, /* from 0, or none: pixels of a wrong image may be infinite or no numbers */
+    FM_RANGE_LEVEL, /* any number, or none */
+    FM_RANGE_KINDS
+} fm_metric_range;
+
+typedef struct fm_range {
+    double least, most;
+    bool is_whole, may_be_none; /* none: not a number */
+    const char *words;          /* "a whole number from 0 to 2^53" */
+} fm_range;
+extern const fm_range fm_ranges[FM_RANGE_KINDS];
+
 typedef struct fm_metric_info {
     const char *name;       /* in files, figures, options of charts: "store_ms" */
     const char *title;      /* in tables and on axes: "store" */
@@ -122,6 +140,7 @@ typedef struct fm_metric_info {
     bool is_measured; /* it differs from run to run; else the same code gives the same value */
     bool is_timed; /* it hangs on a clock, so that it needs an interval by launches. Other measured
                       numbers are counts: races between fragments change them little. */
+    fm_metric_range range;
 } fm_metric_info;
 
 extern const fm_metric_info fm_metrics[FM_METRIC_COUNT];
@@ -144,6 +163,8 @@ enum { FM_LAUNCHES_WANTED = 3 };
 bool metric_find(fm_metric *metric, const char *name);
 /* Whether the name is a time, or a ratio or rate of times: is_timed. */
 bool metric_is_time(const char *name);
+/* Whether a value can be one of this range. */
+bool metric_in_range(fm_metric_range range, double value);
 /* The row of a metric, or of the family that the name belongs to; NULL: neither. */
 const fm_metric_info *metric_describe(const char *name);
 

@@ -1,7 +1,6 @@
 #include "journal.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,7 +9,9 @@
 #include <unistd.h>
 #include <xxhash.h>
 
-#include "model/settings.h"
+#include "base/file.h"
+#include "base/path.h"
+#include "base/text.h"
 
 struct fm_journal {
     int fd;
@@ -26,6 +27,10 @@ static const char *const event_name[] = {
     [FM_JOURNAL_STOP] = "stop",   [FM_JOURNAL_FORGET] = "forget",
 };
 _Static_assert(sizeof event_name / sizeof event_name[0] == FM_JOURNAL_EVENT_COUNT, "one each");
+
+static const char journal_name[] = "journal.jsonl";
+static const size_t line_max_bytes = (size_t)256 << 20; /* a worker's answer may be as long */
+enum { PLAN_LINE_MAX_BYTES = 1024, DAMAGED_LINES_MAX = 8 };
 
 /* How every journal begins; json_dumps keeps the order of json_pack. */
 static const char plan_line_start[] = "{\"event\":\"plan\"";
@@ -74,23 +79,32 @@ static fm_status begin_plan(fm_journal *journal, fm_error *err)
     return status;
 }
 
-static fm_status damaged(const fm_journal *journal, bool *is_damaged, unsigned line,
-                         const char *why, fm_error *err)
+static fm_status foreign(const fm_journal *journal, bool *is_damaged, fm_error *err)
 {
     *is_damaged = true;
-    return fm_fail(err, FM_IO, "%s:%u: damaged: %s; move the folder away and start again",
-                   journal->path, line, why);
+    return fm_fail(err, FM_IO,
+                   "%s:1: damaged: not the journal of a fragmark run; choose another -o, or move "
+                   "the folder away and start again",
+                   journal->path);
 }
 
-static fm_status check_plan(fm_journal *journal, const char *text, bool *is_damaged, fm_error *err)
+static bool is_hash(const char *digits)
+{
+    return strlen(digits) == 16 && strspn(digits, "0123456789abcdef") == 16;
+}
+
+static fm_status check_plan(fm_journal *journal, const fm_text *text, bool *is_damaged,
+                            fm_error *err)
 {
     const char *event, *plan, *run_id, *started;
-    json_t *line = json_loads(text, 0, NULL);
+    json_t *line = json_loadb(text->bytes, text->length, JSON_REJECT_DUPLICATES, NULL);
     fm_status status = FM_OK;
     if (json_unpack(line, "{s:s, s:s, s:s, s:s}", "event", &event, "plan", &plan, "run_id", &run_id,
                     "started", &started) != 0 ||
-        strcmp(event, "plan") != 0)
-        status = damaged(journal, is_damaged, 1, "not the journal of a fragmark run", err);
+        strcmp(event, "plan") != 0 || !is_hash(plan) || !is_hash(run_id) ||
+        strspn(started, "0123456789-T:Z") != strlen(started) ||
+        strlen(started) >= sizeof journal->started)
+        status = foreign(journal, is_damaged, err);
     else if (strcmp(plan, journal->plan_hash) != 0)
         status = fm_fail(err, FM_INVALID,
                          "%s belongs to another plan (other cases, launches, frames or seed): "
@@ -104,48 +118,81 @@ static fm_status check_plan(fm_journal *journal, const char *text, bool *is_dama
     return status;
 }
 
-static FILE *reading_stream(const fm_journal *journal, off_t from)
+/* What the next line of a file is; text holds it without its end. */
+typedef enum line_kind { LINE_WHOLE, LINE_TORN, LINE_LONG, LINE_NONE } line_kind;
+
+static line_kind read_line(fm_text *text, FILE *file)
 {
-    FILE *file = fopen(journal->path, "rbe");
-    if (file != NULL && fseeko(file, from, SEEK_SET) != 0) {
-        fclose(file);
-        return NULL;
+    bool is_long = false;
+    text->length = 0;
+    for (int c; (c = getc_unlocked(file)) != EOF;) {
+        const char byte = (char)c;
+        if (c == '\n')
+            return is_long ? LINE_LONG : LINE_WHOLE;
+        is_long = is_long || text->length >= line_max_bytes;
+        if (!is_long)
+            text_add_raw(text, &byte, 1);
     }
-    return file;
+    return is_long ? LINE_LONG : text->length > 0 ? LINE_TORN : LINE_NONE;
+}
+
+static fm_status reading_stream(FILE **file, const fm_journal *journal, off_t from, fm_error *err)
+{
+    const fm_status status = file_open_stream(file, journal->path, err);
+    if (status != FM_OK || fseeko(*file, from, SEEK_SET) == 0)
+        return status;
+    fclose(*file);
+    *file = NULL;
+    return fm_fail(err, FM_IO, "%s: %s", journal->path, strerror(errno));
 }
 
 /* Reads the plan's line, or writes it in a new file. A first line without its end is that of a run
  * which was killed at once, if it looks like one. */
 static fm_status open_plan(fm_journal *journal, bool *is_damaged, fm_error *err)
 {
-    fm_status status;
-    char *text = NULL;
-    size_t room = 0;
-    FILE *file = reading_stream(journal, 0);
-    if (file == NULL)
-        return fm_fail(err, FM_IO, "%s: %s", journal->path, strerror(errno));
-    const ssize_t length = getline(&text, &room, file);
+    fm_text text = { 0 };
+    FILE *file = NULL;
+    fm_status status = reading_stream(&file, journal, 0, err);
+    if (status != FM_OK)
+        return status;
+    const line_kind kind = read_line(&text, file);
     const size_t start_length = sizeof plan_line_start - 1;
-    if (length > 0 && text[length - 1] == '\n') {
-        journal->begin = (off_t)length;
-        status = check_plan(journal, text, is_damaged, err);
-    } else if (length > 0 &&
-               strncmp(text, plan_line_start,
-                       (size_t)length < start_length ? (size_t)length : start_length) != 0)
-        status = damaged(journal, is_damaged, 1, "not the journal of a fragmark run", err);
+    if (kind == LINE_WHOLE && !text.failed) {
+        journal->begin = ftello(file);
+        status = check_plan(journal, &text, is_damaged, err);
+    } else if (kind == LINE_LONG || text.length > PLAN_LINE_MAX_BYTES ||
+               strncmp(text.bytes != NULL ? text.bytes : "", plan_line_start,
+                       text.length < start_length ? text.length : start_length) != 0)
+        status = foreign(journal, is_damaged, err);
     else if (ftruncate(journal->fd, 0) != 0)
         status = fm_fail(err, FM_IO, "%s: %s", journal->path, strerror(errno));
     else
         status = begin_plan(journal, err);
-    free(text);
+    text_free(&text);
     fclose(file);
     return status;
+}
+
+bool journal_is_begun(const char *directory)
+{
+    char path[FM_PATH_MAX_BYTES];
+    fm_text text = { 0 };
+    FILE *file = NULL;
+    if (path_join(path, directory, journal_name, NULL) != FM_OK ||
+        file_open_stream(&file, path, NULL) != FM_OK)
+        return access(path, F_OK) == 0; /* what it is will be told */
+    const line_kind kind = read_line(&text, file);
+    const bool is_begun = kind == LINE_WHOLE || text.length > PLAN_LINE_MAX_BYTES;
+    text_free(&text);
+    fclose(file);
+    return is_begun;
 }
 
 fm_status journal_open(fm_journal **journal, const char *directory, const char *plan_hash,
                        bool *is_damaged, fm_error *err)
 {
     fm_status status = FM_OK;
+    fm_error below = { 0 };
     *journal = NULL;
     *is_damaged = false;
     fm_journal *opened = calloc(1, sizeof *opened);
@@ -153,14 +200,15 @@ fm_status journal_open(fm_journal **journal, const char *directory, const char *
         return fm_fail(err, FM_NO_MEMORY, "no memory for the journal");
     opened->fd = -1;
     snprintf(opened->plan_hash, sizeof opened->plan_hash, "%s", plan_hash);
-    status = path_join(opened->path, directory, "journal.jsonl", err);
+    status = path_join(opened->path, directory, journal_name, err);
     if (status != FM_OK)
         goto out;
-    opened->fd = open(opened->path, O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-    if (opened->fd < 0) {
-        status = fm_fail(err, FM_INVALID, "%s: %s", opened->path, strerror(errno));
+    status = file_check_replaceable(opened->path, err);
+    *is_damaged = status != FM_OK;
+    if (status == FM_OK && file_open_append(&opened->fd, opened->path, &below) != FM_OK)
+        status = fm_fail(err, FM_INVALID, "%s", below.message);
+    if (status != FM_OK)
         goto out;
-    }
     if (flock(opened->fd, LOCK_EX | LOCK_NB) != 0) {
         status = fm_fail(err, FM_INVALID, "%s: %s", opened->path,
                          errno == EWOULDBLOCK ? "another run is writing here" : strerror(errno));
@@ -185,57 +233,128 @@ void journal_close(fm_journal *journal)
     free(journal);
 }
 
-/* What is wrong with a line; NULL: nothing, and the reader was told. */
-static const char *replay_line(const char *text, const fm_journal_reader *reader, fm_error *below)
+/* What replay meets that cannot be used. */
+typedef struct damage {
+    char why[512]; /* of the first line */
+    unsigned lines[DAMAGED_LINES_MAX];
+    unsigned count, first;
+} damage;
+
+/* The event of a line; FM_JOURNAL_EVENT_COUNT: none that fragmark writes. */
+static fm_journal_event event_of(json_t *line, const char **case_id, uint32_t *launch)
 {
-    const char *why = NULL, *name = NULL, *case_id = NULL;
-    int launch = -1;
-    json_t *line = json_loads(text, 0, NULL);
-    const json_t *result = json_object_get(line, "result");
-    int event = FM_JOURNAL_EVENT_COUNT;
-    if (json_unpack(line, "{s:s, s:s, s?i}", "event", &name, "case", &case_id, "launch", &launch) ==
+    const char *name = NULL;
+    json_int_t number = -1;
+    int event = 0;
+    if (json_unpack(line, "{s:s, s:s, s?I}", "event", &name, "case", case_id, "launch", &number) !=
         0)
-        for (event = 0; event < FM_JOURNAL_EVENT_COUNT; event++)
-            if (strcmp(name, event_name[event]) == 0)
-                break;
-    if (event == FM_JOURNAL_FORGET)
-        launch = 0;
-    if (event == FM_JOURNAL_EVENT_COUNT || launch < 0 ||
-        (event == FM_JOURNAL_END || event == FM_JOURNAL_DIED) != json_is_object(result))
-        why = "not a line that fragmark writes";
-    else if (reader->line(reader->context, (fm_journal_event)event, case_id, (uint32_t)launch,
-                          result, below) != FM_OK)
-        why = below->message;
+        return FM_JOURNAL_EVENT_COUNT;
+    while (event < FM_JOURNAL_EVENT_COUNT && strcmp(name, event_name[event]) != 0)
+        event++;
+    if (event == FM_JOURNAL_FORGET) /* a case's, not a launch's */
+        number = 0;
+    if (number < 0 || number > UINT32_MAX)
+        return FM_JOURNAL_EVENT_COUNT;
+    *launch = (uint32_t)number;
+    const bool has_result = json_is_object(json_object_get(line, "result"));
+    return (event == FM_JOURNAL_END || event == FM_JOURNAL_DIED) == has_result
+               ? (fm_journal_event)event
+               : FM_JOURNAL_EVENT_COUNT;
+}
+
+/* FM_INVALID: the line cannot be used, and err says why. */
+static fm_status replay_line(const fm_text *text, const fm_journal_reader *reader, fm_error *err)
+{
+    json_error_t fault;
+    const char *case_id = NULL;
+    uint32_t launch = 0;
+    json_t *line = json_loadb(text->bytes != NULL ? text->bytes : "", text->length,
+                              JSON_REJECT_DUPLICATES, &fault);
+    if (line == NULL)
+        return fm_fail(err, FM_INVALID, "not JSON: %s", fault.text);
+    const fm_journal_event event = event_of(line, &case_id, &launch);
+    const fm_status status = event == FM_JOURNAL_EVENT_COUNT
+                                 ? fm_fail(err, FM_INVALID, "not a line that fragmark writes")
+                                 : reader->line(reader->context, event, case_id, launch,
+                                                json_object_get(line, "result"), err);
     json_decref(line);
-    return why;
+    return status;
+}
+
+static void note_damage(damage *all, unsigned line, const char *why)
+{
+    if (all->count == 0) {
+        all->first = line;
+        snprintf(all->why, sizeof all->why, "%s", why);
+    }
+    if (all->count < DAMAGED_LINES_MAX)
+        all->lines[all->count] = line;
+    all->count++;
+}
+
+/* A way on that loses nothing: sed keeps the file as it is under another name. */
+static fm_status tell_damage(const fm_journal *journal, const damage *all, unsigned line_count,
+                             fm_error *err)
+{
+    fm_text script = { 0 };
+    const bool is_few = all->count <= DAMAGED_LINES_MAX;
+    for (unsigned i = 0; is_few && i < all->count; i++)
+        text_add(&script, "%s%ud", i > 0 ? ";" : "", all->lines[i]);
+    if (!is_few)
+        text_add(&script, "%u,$d", all->first);
+    const unsigned usable = is_few ? line_count - all->count : all->first - 1;
+    const fm_status status = fm_fail(
+        err, FM_IO,
+        "%s:%u: damaged: %s; nothing was changed, and %u of %u lines can be used: `sed "
+        "-i.damaged '%s' '%s'` keeps the file as %s.damaged, and the same command then goes "
+        "on from those lines",
+        journal->path, all->first, all->why, usable, line_count, script.failed ? "" : script.bytes,
+        journal->path, journal_name);
+    text_free(&script);
+    return status;
+}
+
+static fm_status replay_all(damage *all, off_t *good, const fm_journal *journal, FILE *file,
+                            const fm_journal_reader *reader, fm_error *err)
+{
+    fm_status status = FM_OK;
+    fm_text text = { 0 };
+    unsigned number = 1;
+    for (line_kind kind; status == FM_OK && (kind = read_line(&text, file)) != LINE_NONE;) {
+        fm_error below = { 0 };
+        if (kind == LINE_TORN)
+            break;
+        number++;
+        *good = ftello(file);
+        if (text.failed)
+            status = fm_fail(err, FM_NO_MEMORY, "%s: no memory for a line", journal->path);
+        else if (kind == LINE_LONG)
+            note_damage(all, number, "a line without an end");
+        else if ((status = replay_line(&text, reader, &below)) == FM_INVALID) {
+            note_damage(all, number, below.message);
+            status = FM_OK;
+        } else if (status != FM_OK)
+            status = fm_fail(err, status, "%s", below.message);
+    }
+    text_free(&text);
+    if (status == FM_OK && all->count > 0)
+        status = tell_damage(journal, all, number, err);
+    return status;
 }
 
 fm_status journal_replay(fm_journal *journal, const fm_journal_reader *reader, bool *is_damaged,
                          fm_error *err)
 {
-    fm_status status = FM_OK;
-    fm_error below = { 0 };
-    char *text = NULL;
-    size_t room = 0;
+    damage all = { .count = 0 };
     off_t good = journal->begin;
-    ssize_t length;
-    FILE *file = reading_stream(journal, journal->begin);
-    if (file == NULL)
-        return fm_fail(err, FM_IO, "%s: %s", journal->path, strerror(errno));
-    for (unsigned number = 2; (length = getline(&text, &room, file)) > 0; number++) {
-        if (text[length - 1] != '\n')
-            break; /* torn */
-        const char *why = replay_line(text, reader, &below);
-        if (why != NULL) {
-            status = damaged(journal, is_damaged, number, why, err);
-            goto out;
-        }
-        good += (off_t)length;
-    }
-    if (ferror(file) || ftruncate(journal->fd, good) != 0)
+    FILE *file = NULL;
+    fm_status status = reading_stream(&file, journal, journal->begin, err);
+    if (status != FM_OK)
+        return status;
+    status = replay_all(&all, &good, journal, file, reader, err);
+    *is_damaged = all.count > 0;
+    if (status == FM_OK && (ferror(file) || ftruncate(journal->fd, good) != 0))
         status = fm_fail(err, FM_IO, "%s: %s", journal->path, strerror(errno));
-out:
-    free(text);
     fclose(file);
     return status;
 }

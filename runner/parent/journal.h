@@ -28,8 +28,9 @@ typedef enum fm_journal_event {
 
 /* What the lines of an earlier run tell, in order. */
 typedef struct fm_journal_reader {
-    /* result is borrowed; NULL but for FM_JOURNAL_END and FM_JOURNAL_DIED. FM_INVALID: no such case
-     * or launch. */
+    /* result is borrowed; NULL but for FM_JOURNAL_END and FM_JOURNAL_DIED. FM_INVALID: the line
+     * cannot be used: no such case or launch, out of order, a result that cannot be. Other failures
+     * end the replay. */
     fm_status (*line)(void *context, fm_journal_event event, const char *case_id, uint32_t launch,
                       const json_t *result, fm_error *err);
     void *context;
@@ -37,11 +38,17 @@ typedef struct fm_journal_reader {
 
 /* Opens or makes DIRECTORY/journal.jsonl.
  * FM_INVALID: in use by another run, or of another plan. FM_IO: damaged, foreign or not writable;
- * *is_damaged tells the first two. A torn last line, which a killed run leaves, is cut off. */
+ * *is_damaged tells the first two. */
 fm_status journal_open(fm_journal **journal, const char *directory, const char *plan_hash,
                        bool *is_damaged, fm_error *err);
+/* Whether the directory has a journal with a first line: without one, results there are not ours.
+ */
+bool journal_is_begun(const char *directory);
 /* Tells the reader all lines of the run so far, also those that are forgotten further down; not
- * between two calls of journal_write. */
+ * between two calls of journal_write. A torn last line, which a killed run leaves, is cut off once
+ * all others were understood. Lines that cannot be used are FM_IO with *is_damaged: the message
+ * names the first, how many can be used, and a command that takes the others out and keeps the file
+ * as it is. Nothing is changed then. */
 fm_status journal_replay(fm_journal *journal, const fm_journal_reader *reader, bool *is_damaged,
                          fm_error *err);
 void journal_close(fm_journal *journal);

@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "answer_check.h"
 #include "base/text.h"
 #include "process/process.h"
 #include "worker/protocol.h"
@@ -154,11 +155,13 @@ static json_t *read_answer(char *why, size_t room_bytes, const fm_launch_desc *d
     }
     json_t *result = json_loadb(bytes, count, JSON_REJECT_DUPLICATES, &fault);
     free(bytes);
-    const char *wrong = result == NULL ? fault.text : answer_fault(result);
-    if (wrong == NULL)
+    const fm_status checked =
+        result != NULL ? answer_check(result, desc->frames, &below)
+                       : fm_fail(&below, FM_INVALID, "line %d: %s", fault.line, fault.text);
+    if (checked == FM_OK)
         return result;
     json_decref(result);
-    snprintf(why, room_bytes, "%s", wrong);
+    snprintf(why, room_bytes, "%s", below.message);
     return NULL;
 }
 

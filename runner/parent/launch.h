@@ -17,6 +17,7 @@ typedef struct fm_launch_desc {
     const char *log;       /* path that its stdout and stderr are appended to: the beginning and
                               the end, LAUNCH_LOG_BYTES in all */
     const char *input;     /* file that its scene reads, named if it dies; NULL: none */
+    uint32_t frames;       /* that its answer may speak of: answer_check.h */
     uint32_t timeout_s;    /* 0: none */
     uint64_t memory_bytes; /* address space; 0: no limit */
     void (*tick)(void *context); /* about once a second; NULL: none */

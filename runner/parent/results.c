@@ -1,10 +1,10 @@
 #include "results.h"
 #include "base/csv.h"
+#include "base/file.h"
 #include "simulator/counters.h"
 #include "worker/protocol.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -48,14 +48,23 @@ static fm_status create_cases(fm_results *results, fm_error *err)
 static fm_status begin_samples(fm_results *results, fm_error *err)
 {
     fm_text header = { 0 };
-    results->samples_fd =
-        open(results->samples_path, O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666);
-    if (results->samples_fd < 0)
-        return fm_fail(err, FM_IO, "%s: %s", results->samples_path, strerror(errno));
+    fm_status status = file_check_replaceable(results->samples_path, err);
+    if (status == FM_OK)
+        status = file_create(&results->samples_fd, results->new_path, err);
+    if (status != FM_OK)
+        return status;
     text_add(&header, "%s", samples_header);
-    const fm_status status = append(results, &header, err);
+    status = append(results, &header, err);
     text_free(&header);
     return status;
+}
+
+fm_status results_keep_replayed(fm_results *results, fm_error *err)
+{
+    if (rename(results->new_path, results->samples_path) != 0)
+        return fm_fail(err, FM_IO, "%s: %s", results->samples_path, strerror(errno));
+    results->new_path[0] = '\0';
+    return FM_OK;
 }
 
 fm_status results_create(fm_results **results, const fm_plan *plan, const fm_plugin_list *plugins,
@@ -74,6 +83,8 @@ fm_status results_create(fm_results **results, const fm_plan *plan, const fm_plu
     status = path_join(created->summary_path, directory, "summary.csv", err);
     if (status == FM_OK)
         status = path_join(created->samples_path, directory, "samples.csv", err);
+    if (status == FM_OK)
+        status = path_join(created->new_path, directory, "samples.csv.partial", err);
     if (status == FM_OK)
         status = create_cases(created, err);
     if (status == FM_OK)
@@ -105,8 +116,11 @@ void results_destroy(fm_results *results)
     free(results->cases);
     codes_free(&results->codes);
     json_decref(results->meshes);
-    if (results->samples_fd >= 0)
+    if (results->samples_fd >= 0) {
         close(results->samples_fd);
+        if (results->new_path[0] != '\0')
+            unlink(results->new_path);
+    }
     free(results);
 }
 

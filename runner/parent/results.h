@@ -52,15 +52,19 @@ typedef struct fm_results {
     fm_codes codes;        /* what the cases were measured by */
     json_t *meshes;        /* by file: what was loaded, as answers say it */
     char summary_path[FM_PATH_MAX_BYTES], samples_path[FM_PATH_MAX_BYTES];
+    char new_path[FM_PATH_MAX_BYTES]; /* samples.csv while a journal is replayed; "": no more */
     char run_id[17];
     int samples_fd;
 } fm_results;
 
 /* plan and plugins are borrowed for the life of the results. Cases that are not to be launched
- * have their status at once. samples.csv is begun anew. */
+ * have their status at once. samples.csv is begun anew, beside the one that there is, until
+ * results_keep_replayed. */
 fm_status results_create(fm_results **results, const fm_plan *plan, const fm_plugin_list *plugins,
                          const char *directory, const char *run_id, fm_error *err);
 void results_destroy(fm_results *results);
+/* The journal was understood: what it told takes the place of the samples.csv that there was. */
+fm_status results_keep_replayed(fm_results *results, fm_error *err);
 
 /* Takes one launch's answer (protocol.h): status, samples, metrics; appends its rows. */
 fm_status results_add(fm_results *results, size_t case_index, uint32_t launch, const json_t *answer,

@@ -45,6 +45,7 @@ static fm_status ask(fm_launch_outcome *outcome, run_state *run, const run_attem
         .request = request_path,
         .result = result_path,
         .log = log_path,
+        .frames = run_frames(run, request->settings),
         .timeout_s = run->desc->timeout_s != 0 ? run->desc->timeout_s : TIMEOUT_DEFAULT_S,
         .memory_bytes = run->desc->memory_bytes,
         .input = settings_file(request->settings),

@@ -5,6 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "answer_check.h"
 #include "code/code_json.h"
 #include "code/code_now.h"
 #include "run_internal.h"
@@ -30,19 +31,65 @@ static fm_status no_memory(fm_error *err)
     return fm_fail(err, FM_NO_MEMORY, "no memory for the codes of rows");
 }
 
+/* Where a launch stands, as far as the journal was heard. */
+typedef enum launch_place { NOT_BEGUN, BEGUN, ENDED } launch_place;
+
+typedef struct hearing {
+    run_state *run;
+    unsigned char *places; /* [plan->count][plan->launches], of launch_place */
+} hearing;
+
+static fm_status hear_order(const hearing *all, size_t row, uint32_t launch, fm_journal_event event,
+                            fm_error *err)
+{
+    const size_t launches = all->run->plan->launches;
+    unsigned char *place = &all->places[row * launches + launch];
+    const char *wrong = NULL;
+    switch (event) {
+    case FM_JOURNAL_BEGIN:
+        wrong = *place == ENDED ? "begins after its end" : NULL;
+        *place = BEGUN;
+        break;
+    case FM_JOURNAL_END: /* without a beginning where no truth could be had */
+        wrong = *place == ENDED ? "ended twice" : NULL;
+        *place = ENDED;
+        break;
+    case FM_JOURNAL_DIED:
+        wrong = *place != BEGUN ? "dies and had not begun" : NULL;
+        break;
+    case FM_JOURNAL_STOP:
+        wrong = *place != BEGUN ? "stops and had not begun" : NULL;
+        *place = NOT_BEGUN;
+        break;
+    case FM_JOURNAL_FORGET:
+        memset(&all->places[row * launches], NOT_BEGUN, launches);
+        break;
+    case FM_JOURNAL_EVENT_COUNT:
+        break;
+    }
+    return wrong == NULL ? FM_OK : fm_fail(err, FM_INVALID, "launch %u %s", launch, wrong);
+}
+
 static fm_status hear(void *context, fm_journal_event event, const char *case_id, uint32_t launch,
                       const json_t *result, fm_error *err)
 {
-    run_state *run = context;
+    const hearing *all = context;
+    run_state *run = all->run;
     fm_code code;
     size_t row;
     fm_status status = run_find_case(&row, run, case_id, launch, err);
+    if (status == FM_OK)
+        status = hear_order(all, row, launch, event, err);
     if (status != FM_OK)
         return status;
     if (event == FM_JOURNAL_FORGET)
         codes_forget(&run->codes, row);
-    if (event != FM_JOURNAL_END)
+    if (result == NULL)
         return FM_OK;
+    /* Nobody keeps a journal from being edited: an answer in it is held to what a worker's is. */
+    status = answer_check(result, run_frames(run, &run->plan->cases[row].settings), err);
+    if (status != FM_OK || event != FM_JOURNAL_END)
+        return status;
     const bool has_code = answer_code(&code, result);
     status = codes_add(&run->codes, row, has_code ? &code : NULL, err);
     code_free(&code);
@@ -293,10 +340,15 @@ static fm_status settle(run_state *run, const change_list *list, fm_error *err)
 
 fm_status run_read_codes(run_state *run, fm_error *err)
 {
-    const fm_journal_reader reader = { .line = hear, .context = run };
+    hearing all = { .run = run, .places = calloc(run->plan->count + 1, run->plan->launches) };
+    const fm_journal_reader reader = { .line = hear, .context = &all };
     codes_free(&run->codes);
-    const fm_status status = codes_create(&run->codes, run->plan->count, err);
-    return status == FM_OK ? journal_replay(run->journal, &reader, &run->is_damaged, err) : status;
+    fm_status status =
+        all.places != NULL ? codes_create(&run->codes, run->plan->count, err) : no_memory(err);
+    if (status == FM_OK)
+        status = journal_replay(run->journal, &reader, &run->is_damaged, err);
+    free(all.places);
+    return status;
 }
 
 fm_status run_check_codes(run_state *run, fm_error *err)

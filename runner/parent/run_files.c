@@ -34,11 +34,9 @@ static fm_status make_folder(const char *path, fm_error *err)
 fm_status run_make_folders(const run_state *run, fm_error *err)
 {
     static const char *const folders[] = { "work", "truth", "images" };
-    char path[FM_PATH_MAX_BYTES], journal[FM_PATH_MAX_BYTES];
-    fm_status status = run_path(journal, run, "journal.jsonl", "", "", err);
-    if (status == FM_OK)
-        status = run_path(path, run, "summary.csv", "", "", err);
-    if (status == FM_OK && access(journal, F_OK) != 0 && access(path, F_OK) == 0)
+    char path[FM_PATH_MAX_BYTES];
+    fm_status status = run_path(path, run, "summary.csv", "", "", err);
+    if (status == FM_OK && !journal_is_begun(run->desc->directory) && access(path, F_OK) == 0)
         status = fm_fail(err, FM_INVALID,
                          "%s holds results that no journal belongs to: choose another -o",
                          run->desc->directory);

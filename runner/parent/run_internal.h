@@ -49,7 +49,8 @@ void run_remove_truths(const run_state *run);
 void run_remove_folders(const run_state *run);
 
 /* run_code.c */
-/* What the journal's rows were measured by, and what of them is to be forgotten. */
+/* Hears the journal first: checks each line, and notes what its rows were measured by, and how
+ * much of them is to be forgotten. */
 fm_status run_read_codes(run_state *run, fm_error *err);
 /* Compares that with what is here now: refuses with is_other_code, or with is_fresh writes into the
  * journal that they are to be forgotten. */
@@ -89,6 +90,8 @@ fm_request run_request_for(const run_state *run, const fm_case *planned, size_t 
                            const char *truth);
 /* The case is to be launched, and not finished. */
 bool run_is_pending(const run_state *run, size_t case_index);
+/* How many frames a launch may speak of: those that are timed, or those of its sequence. */
+uint32_t run_frames(const run_state *run, const fm_settings *settings);
 /* Writes the end of a launch into journal, tables and, if it was the case's last, the summary. */
 fm_status run_end_launch(run_state *run, size_t case_index, uint32_t launch, json_t *answer,
                          fm_error *err);

@@ -48,8 +48,7 @@ static fm_status replay_event(run_state *run, fm_journal_event event, size_t i, 
         return state->death != NULL ? FM_OK : fm_fail(err, FM_NO_MEMORY, "no memory for a death");
     case FM_JOURNAL_END:
         results_take_mesh(run->results, result);
-        return state->is_done ? fm_fail(err, FM_INVALID, "launch %u ended twice", launch)
-                              : results_add(run->results, i, launch, result, err);
+        return results_add(run->results, i, launch, result, err);
     case FM_JOURNAL_FORGET:
     case FM_JOURNAL_EVENT_COUNT:
         break;
@@ -121,5 +120,7 @@ fm_status run_resume(run_state *run, fm_error *err)
         status = read_results(run, err);
     if (status == FM_OK)
         status = forget_retried(run, err);
+    if (status == FM_OK)
+        status = results_keep_replayed(run->results, err);
     return status;
 }

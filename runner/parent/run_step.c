@@ -26,6 +26,12 @@ fm_status run_end_launch(run_state *run, size_t case_index, uint32_t launch, jso
     return status;
 }
 
+uint32_t run_frames(const run_state *run, const fm_settings *settings)
+{
+    return generator_makes_frames(settings->generator) ? settings->sequence_frames
+                                                       : run->plan->frames;
+}
+
 /* All cases of a truth that cannot be had end as it did. */
 static fm_status fail_truth(run_state *run, size_t job, const json_t *result, fm_error *err)
 {

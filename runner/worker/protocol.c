@@ -9,6 +9,7 @@
 #include "code/code_json.h"
 #include "model/metrics.h"
 
+enum { REQUEST_MAX_BYTES = 1 << 20 };
 static const char truth_job[] = "truth", mesh_job[] = "mesh", device_job[] = "device",
                   measure_job[] = "measure";
 
@@ -110,19 +111,76 @@ static fm_status read_choices(fm_read_request *read, fm_error *err)
         if (read->request.choice_count == FM_MAX_OPTIONS || !json_is_string(value))
             return fm_fail(err, FM_INVALID, "request: options: '%s'", name);
         fm_choice *choice = &read->choices[read->request.choice_count++];
+        if (strlen(name) >= sizeof choice->name ||
+            json_string_length(value) >= sizeof choice->value)
+            return fm_fail(err, FM_INVALID, "request: options: '%.80s' is too long", name);
         snprintf(choice->name, sizeof choice->name, "%s", name);
         snprintf(choice->value, sizeof choice->value, "%s", json_string_value(value));
     }
     return FM_OK;
 }
 
+/* Fields of a request; JSON_TRUE stands for both truth values. */
+static const struct {
+    const char *name;
+    json_type type;
+} request_fields[] = {
+    { "job", JSON_STRING },     { "plugin", JSON_STRING }, { "floor", JSON_STRING },
+    { "common", JSON_STRING },  { "device", JSON_STRING }, { "validation", JSON_TRUE },
+    { "no_timers", JSON_TRUE }, { "feed", JSON_STRING },   { "settings", JSON_OBJECT },
+    { "options", JSON_OBJECT }, { "truth", JSON_STRING },  { "launch", JSON_INTEGER },
+    { "check", JSON_TRUE },     { "image", JSON_STRING },
+};
+
+/* The parent writes all of them; what lacks one was not written by it. */
+static fm_status check_request(const json_t *json, const char *path, fm_error *err)
+{
+    static const char *const jobs[] = { truth_job, mesh_job, device_job, measure_job };
+    bool is_job = false;
+    for (size_t i = 0; i < sizeof request_fields / sizeof request_fields[0]; i++) {
+        const json_t *value = json_object_get(json, request_fields[i].name);
+        const json_type type = request_fields[i].type;
+        if (value == NULL ||
+            (type == JSON_TRUE ? !json_is_boolean(value) : json_typeof(value) != type))
+            return fm_fail(err, FM_INVALID, "%s: no request: '%s' is missing or of another kind",
+                           path, request_fields[i].name);
+    }
+    for (size_t i = 0; i < sizeof jobs / sizeof jobs[0]; i++)
+        is_job = is_job || strcmp(text_in(json, "job"), jobs[i]) == 0;
+    const json_int_t launch = json_integer_value(json_object_get(json, "launch"));
+    if (!is_job)
+        return fm_fail(err, FM_INVALID, "%s: no request: 'job' is none that is known", path);
+    if (launch < 0 || launch > UINT32_MAX)
+        return fm_fail(err, FM_INVALID, "%s: no request: 'launch' is %lld", path,
+                       (long long)launch);
+    return FM_OK;
+}
+
+static fm_status load_request(json_t **json, const char *path, fm_error *err)
+{
+    char *bytes = NULL;
+    size_t count = 0;
+    json_error_t at;
+    fm_status status = text_read_file(&bytes, &count, path, REQUEST_MAX_BYTES, err);
+    if (status != FM_OK)
+        return status;
+    *json = json_loadb(bytes != NULL ? bytes : "", count, JSON_REJECT_DUPLICATES, &at);
+    free(bytes);
+    if (*json == NULL)
+        return fm_fail(err, FM_IO, "%s:%d: %s", path, at.line, at.text);
+    return FM_OK;
+}
+
 fm_status request_read(fm_read_request *read, const char *path, fm_error *err)
 {
-    json_error_t at;
-    *read = (fm_read_request){ .json = json_load_file(path, 0, &at) };
+    *read = (fm_read_request){ .json = NULL };
+    read->request = (fm_request){ .settings = &read->settings, .choices = read->choices };
+    fm_status status = load_request(&read->json, path, err);
     const json_t *json = read->json;
-    if (json == NULL)
-        return fm_fail(err, FM_IO, "%s:%d: %s", path, at.line, at.text);
+    if (status == FM_OK)
+        status = check_request(json, path, err);
+    if (status != FM_OK)
+        return status;
     read->request = (fm_request){
         .is_truth_job = strcmp(text_in(json, "job"), truth_job) == 0,
         .is_mesh_job = strcmp(text_in(json, "job"), mesh_job) == 0,
@@ -141,7 +199,7 @@ fm_status request_read(fm_read_request *read, const char *path, fm_error *err)
         .no_timers = is_set(json, "no_timers"),
         .launch = (uint32_t)json_integer_value(json_object_get(json, "launch")),
     };
-    const fm_status status = read_settings(read, err);
+    status = read_settings(read, err);
     return status == FM_OK ? read_choices(read, err) : status;
 }
 
@@ -278,73 +336,6 @@ void answer_add_note(json_t *answer, const char *note)
     if (!all.failed)
         json_object_set_new(answer, "message", any_text(all.bytes));
     text_free(&all);
-}
-
-static const char *sample_fault(const json_t *sample)
-{
-    const json_t *frame = json_object_get(sample, "frame");
-    if (!json_is_integer(frame) || json_integer_value(frame) < 0 ||
-        json_integer_value(frame) > UINT32_MAX ||
-        !json_is_string(json_object_get(sample, "metric")) ||
-        !json_is_number(json_object_get(sample, "value")))
-        return "a sample lacks frame, metric or value";
-    return NULL;
-}
-
-/* An object whose members are numbers; NULL is one of none. */
-static bool is_of_numbers(json_t *object)
-{
-    const char *name;
-    json_t *value;
-    if (object != NULL && !json_is_object(object))
-        return false;
-    json_object_foreach(object, name, value)
-    {
-        if (!json_is_number(value))
-            return false;
-    }
-    return true;
-}
-
-static bool has_code(const json_t *answer)
-{
-    fm_code code;
-    const bool is_there = answer_code(&code, answer);
-    code_free(&code);
-    return is_there;
-}
-
-const char *answer_fault(const json_t *answer)
-{
-    fm_case_status status;
-    size_t index;
-    const json_t *sample;
-    const json_t *samples = json_object_get(answer, "samples");
-    const json_t *metrics = json_object_get(answer, "metrics");
-    const json_t *hashes = answer_image_hashes(answer);
-    if (!json_is_object(answer))
-        return "not an object";
-    if (!case_status_parse(&status, json_string_value(json_object_get(answer, "status"))))
-        return "'status' is none of the known words";
-    if ((status == FM_CASE_SKIPPED) != answer_is_runs_fault(answer))
-        return "'status' and 'is_runs_fault' contradict each other";
-    if (metrics != NULL && !json_is_object(metrics))
-        return "'metrics' is not an object";
-    if (json_object_get(answer, "code") != NULL && !has_code(answer))
-        return "'code' is not that of code_json.h";
-    if (!is_of_numbers(answer_launch(answer)))
-        return "'launch' is not an object of numbers";
-    if (samples != NULL && !json_is_array(samples))
-        return "'samples' is not a list";
-    if (hashes != NULL && !json_is_array(hashes))
-        return "'image_hashes' is not a list";
-    json_array_foreach(samples, index, sample)
-    {
-        const char *fault = sample_fault(sample);
-        if (fault != NULL)
-            return fault;
-    }
-    return NULL;
 }
 
 fm_case_status answer_status(const json_t *answer)

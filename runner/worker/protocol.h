@@ -120,9 +120,7 @@ void answer_add_note(json_t *answer, const char *note);
 
 /* Reading an answer: the parent's side. */
 
-/* What is wrong with an answer's form; NULL: nothing. What follows asks answers that have passed.
- */
-const char *answer_fault(const json_t *answer);
+/* What follows asks answers that have passed parent/answer_check.h. */
 fm_case_status answer_status(const json_t *answer);
 bool answer_is_runs_fault(const json_t *answer);
 bool answer_is_truth_unusable(const json_t *answer);

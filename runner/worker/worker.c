@@ -276,7 +276,11 @@ static fm_status run_method(launch_job *job)
 static fm_status open_truth(launch_job *job)
 {
     job->is_truths = true;
-    const fm_status status = truth_open(&job->truth, job->request->truth, &job->error);
+    fm_status status = truth_open(&job->truth, job->request->truth, &job->error);
+    if (status == FM_OK && (job->truth->width_px != job->scene->width_px ||
+                            job->truth->height_px != job->scene->height_px))
+        status = fm_fail(&job->error, FM_IO, "%s: the truth of another scene: damaged",
+                         job->request->truth);
     job->is_truths = status != FM_OK;
     return status;
 }

@@ -39,7 +39,8 @@ static fm_results *created(fake_plan *fake, uint32_t launches)
     fm_results *results = NULL;
     fm_error err = { 0 };
     fake_open(fake, only_kb, launches);
-    if (results_create(&results, &fake->plan, &fake->list, fake->folder, "run", &err) != FM_OK)
+    if (results_create(&results, &fake->plan, &fake->list, fake->folder, "run", &err) != FM_OK ||
+        results_keep_replayed(results, &err) != FM_OK)
         fail_msg("%s", err.message);
     return results;
 }

@@ -266,23 +266,6 @@ static void run_refuses_results_without_a_journal(void **state)
     fake_close(&fake);
 }
 
-static void run_reports_a_damaged_journal(void **state)
-{
-    (void)state;
-    static const char *const ids[] = { "a", NULL };
-    fake_plan fake;
-    fm_run_result result;
-    fm_error err = { 0 };
-    open_with_worker(&fake, ids, 1);
-    run_well(&fake);
-    fake_write(&fake, "out/journal.jsonl",
-               "{\"event\":\"begin\",\"case\":\"ffffffffffffffff\",\"launch\":0}\n", "a");
-    assert_int_equal(run_in(&result, &fake, 5, &err), FM_IO);
-    assert_true(result.is_damaged);
-    assert_non_null(strstr(err.message, "is not of this plan"));
-    fake_close(&fake);
-}
-
 static void run_needs_a_floor_and_a_worker(void **state)
 {
     (void)state;
@@ -314,7 +297,6 @@ int main(void)
         cmocka_unit_test(run_measures_anew_what_is_to_be_retried),
         cmocka_unit_test(run_refuses_a_folder_of_another_plan),
         cmocka_unit_test(run_refuses_results_without_a_journal),
-        cmocka_unit_test(run_reports_a_damaged_journal),
         cmocka_unit_test(run_needs_a_floor_and_a_worker),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,20 @@
+/* What a worker says is checked when it is read, from its own file or from the journal: a worker
+ * may hang, crash or lie, and what it says goes into tables that others compute with.
+ *
+ * An answer is an object of the fields of worker/protocol.h, each of its kind; texts have a limit;
+ * metrics are known by name (model/metrics.h, or counters of the simulated GPU), belong where they
+ * stand, have their unit, and a value of their range; a frame has a metric once. Fields that are
+ * not known are left alone. */
+#ifndef FM_ANSWER_CHECK_H
+#define FM_ANSWER_CHECK_H
+
+#include <jansson.h>
+#include <stdint.h>
+
+#include "base/error.h"
+
+/* frames: how many an answer may speak of. FM_INVALID: what is wrong, in words that follow "the
+ * worker's result cannot be used: "; FM_NO_MEMORY. */
+fm_status answer_check(const json_t *answer, uint32_t frames, fm_error *err);
+
+#endif
