@@ -33,10 +33,8 @@ static fm_status replay(void *context, fm_journal_event event, const char *case_
                         const json_t *result, fm_error *err)
 {
     run_state *run = context;
-    size_t i = 0;
-    while (i < run->plan->count && strcmp(run->plan->cases[i].id, case_id) != 0)
-        i++;
-    if (i == run->plan->count || launch >= plan_case_launches(run->plan, i))
+    const size_t i = text_index_find(&run->ids, case_id);
+    if (i == FM_TEXT_INDEX_NONE || launch >= plan_case_launches(run->plan, i))
         return fm_fail(err, FM_INVALID, "case %.32s, launch %u is not of this plan", case_id,
                        launch);
     fm_launch_state *state = &run->results->cases[i].launches[launch];
@@ -134,10 +132,10 @@ static fm_status run_round(run_state *run, uint32_t launch, fm_error *err)
 
 static bool truth_is_wanted(const run_state *run, size_t job)
 {
-    for (size_t i = 0; i < run->plan->count; i++)
-        if (run->truths.of_case[i] == job && run_is_pending(run, i))
-            return true;
-    return false;
+    size_t i = run->truths.jobs[job].of;
+    while (i != FM_NO_CASE && !run_is_pending(run, i))
+        i = run->truths.next_of_same[i];
+    return i != FM_NO_CASE;
 }
 
 static void count_launches(run_state *run)
@@ -212,6 +210,8 @@ static fm_status write_manifest(const run_state *run, bool is_ended, fm_error *e
 static fm_status prepare(run_state *run, fm_error *err)
 {
     fm_status status = truth_jobs_create(&run->truths, run->plan, run->plugins, err);
+    if (status == FM_OK && !plan_index_ids(&run->ids, run->plan))
+        status = fm_fail(err, FM_NO_MEMORY, "no memory for %zu cases", run->plan->count);
     if (status == FM_OK)
         status = run_make_folders(run, err);
     if (status == FM_OK)
@@ -240,6 +240,8 @@ fm_status run_cases(fm_run_result *result, const fm_plan *plan, const fm_plugin_
         launcher_open(&run.launcher);
         status = run_launches(&run, err);
         launcher_close(&run.launcher);
+        if (status != FM_OK) /* what the last summary lacks; nobody asks how that ended */
+            results_write_summary(run.results, NULL);
     }
     if (status == FM_OK)
         status = results_end(run.results, err);
@@ -255,6 +257,7 @@ fm_status run_cases(fm_run_result *result, const fm_plan *plan, const fm_plugin_
     journal_close(run.journal);
     results_destroy(run.results);
     truth_jobs_free(&run.truths);
+    text_index_free(&run.ids);
     free(run.order);
     return status;
 }

@@ -19,6 +19,7 @@ typedef struct run_state {
     fm_journal *journal;
     fm_results *results;
     fm_truth_jobs truths;
+    fm_text_index ids; /* of the plan's cases */
     fm_launcher launcher;
     fm_progress progress;
     uint32_t *order; /* [plan->count]: of the running round */

@@ -48,7 +48,11 @@ static fm_status add_case(fm_truth_jobs *jobs, fm_text_index *names, const fm_pl
         return fm_fail(err, FM_NO_MEMORY, "no memory for %zu truths", jobs->count + 1);
     if (job == jobs->count)
         jobs->jobs[jobs->count++].of = i;
+    else
+        jobs->next_of_same[jobs->jobs[job].last] = i;
+    jobs->jobs[job].last = i;
     jobs->of_case[i] = job;
+    jobs->next_of_same[i] = FM_NO_CASE;
     return FM_OK;
 }
 
@@ -61,8 +65,9 @@ fm_status truth_jobs_create(fm_truth_jobs *jobs, const fm_plan *plan, const fm_p
     *jobs = (fm_truth_jobs){
         .jobs = calloc(room, sizeof *jobs->jobs),
         .of_case = calloc(room, sizeof *jobs->of_case),
+        .next_of_same = calloc(room, sizeof *jobs->next_of_same),
     };
-    if (jobs->jobs == NULL || jobs->of_case == NULL) {
+    if (jobs->jobs == NULL || jobs->of_case == NULL || jobs->next_of_same == NULL) {
         truth_jobs_free(jobs);
         return fm_fail(err, FM_NO_MEMORY, "no memory for %zu cases", plan->count);
     }
@@ -81,5 +86,6 @@ void truth_jobs_free(fm_truth_jobs *jobs)
 {
     free(jobs->jobs);
     free(jobs->of_case);
+    free(jobs->next_of_same);
     *jobs = (fm_truth_jobs){ 0 };
 }
