@@ -87,6 +87,11 @@ void page_begin(fm_text *page, const fm_result_files *results)
              "%zu with a wrong image, %zu that failed or were skipped.</p>\n",
              results->count, ok, not_supported, wrong_image,
              results->count - ok - not_supported - wrong_image);
+    for (size_t i = 0; i < results->missing.count; i++) {
+        text_add(page, "<p class=note>");
+        html_add(page, results->missing.items[i]);
+        text_add(page, ".</p>\n");
+    }
     add_trust(page, results);
     text_add(page, "<dl>\n");
     add_fact(page, "what", provenance_fact(manifest, "command"));
