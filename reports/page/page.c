@@ -6,6 +6,7 @@
 
 #include "html.h"
 #include "model/family.h"
+#include "publish.h"
 #include "read/case_metrics.h"
 #include "read/group.h"
 
@@ -80,8 +81,9 @@ void page_begin(fm_text *page, const fm_result_files *results)
     text_add(page,
              "<!doctype html>\n<html lang=en><head><meta charset=utf-8>\n"
              "<meta name=viewport content=\"width=device-width, initial-scale=1\">\n"
+             FM_PUBLISH_MARK "%zu>\n"
              "<title>fragmark report</title>\n<style>\n%s</style></head><body>\n",
-             page_css);
+             results->missing.count, page_css);
     text_add(page,
              "<h1>fragmark report</h1>\n<p class=faint>%zu cases: %zu ok, %zu not supported, "
              "%zu with a wrong image, %zu that failed or were skipped.</p>\n",
