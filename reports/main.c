@@ -179,8 +179,7 @@ static int write_report(const arguments *given, const fm_report_desc *base, fm_e
     fm_status status = verdicts_make(&verdicts, &desc, err);
     if (status == FM_OK)
         status = report_write(&outcome, &report, err);
-    const int code =
-        status == FM_OK ? tell(given, &outcome, &verdicts, err) : writing_code(status);
+    const int code = status == FM_OK ? tell(given, &outcome, &verdicts, err) : writing_code(status);
     verdicts_free(&verdicts);
     if (code != FM_EXIT_DONE || report.results->missing.count == 0)
         return code;
@@ -188,8 +187,8 @@ static int write_report(const arguments *given, const fm_report_desc *base, fm_e
     return FM_EXIT_INCOMPLETE;
 }
 
-/* What was named on the command line and is not there is wrong use; what the run or the report needs
- * of itself is a file that is gone. */
+/* What was named on the command line and is not there is wrong use; what the run or the report
+ * needs of itself is a file that is gone. */
 static int make_report(arguments *given, fm_error *err)
 {
     int code = FM_EXIT_DAMAGED;

@@ -82,10 +82,11 @@ fm_status publish_begin(const char *directory, size_t missing_count, fm_error *e
     char path[FM_PATH_MAX_BYTES];
     fm_status status = path_join(path, directory, "report.html", err);
     if (status == FM_OK && missing_before(path) < missing_count)
-        status = fm_fail(err, FM_INVALID,
-                         "%s was made of results that lacked less than these do, and stays: move it "
-                         "away to have a report of what is left",
-                         path);
+        status =
+            fm_fail(err, FM_INVALID,
+                    "%s was made of results that lacked less than these do, and stays: move it "
+                    "away to have a report of what is left",
+                    path);
     if (status == FM_OK)
         status = make_folder(directory, FM_PUBLISH_CHARTS, err);
     return status == FM_OK ? visit_charts(directory, FM_PUBLISH_CHARTS, remove_partial, err)

@@ -89,8 +89,7 @@ static fm_status check_numbers(const fm_case_row *result, const fm_table *table,
 {
     fm_status status = check_share(result->pixel_density, "pixel_density", table, row, err);
     if (status == FM_OK)
-        status =
-            check_share(result->fragment_probability, "fragment_probability", table, row, err);
+        status = check_share(result->fragment_probability, "fragment_probability", table, row, err);
     for (size_t i = 0; i < FM_METRIC_COUNT && status == FM_OK; i++)
         if (result->low[i] > result->high[i])
             status = fm_fail(err, FM_INVALID, "%s:%u: %s_low: %g is above %s_high, %g", table->path,
@@ -147,8 +146,7 @@ static fm_status read_cell(fm_case_row *result, const fm_column *column, const f
     case FM_COLUMN_FACT:
         return fact_is_kept(column->fact) ? read_text(result, fact_at[column->fact], text) : FM_OK;
     case FM_COLUMN_METRIC:
-        return read_metric(&result->metric[column->metric], column->metric, table, row, index,
-                           err);
+        return read_metric(&result->metric[column->metric], column->metric, table, row, index, err);
     case FM_COLUMN_LOW:
         return table_number(&result->low[column->metric], table, row, index, err);
     case FM_COLUMN_HIGH:

@@ -39,11 +39,11 @@ typedef struct fm_case_row {
 } fm_case_row;
 
 /* One row of the table each, in its order, and the place of each id. FM_INVALID, naming file, line
- * and column: another schema; a column is missing, or is unknown and stands before known ones (those
- * of newer programs stand behind them); a number is none, or out of range: times and amounts are
- * finite and not negative, shares at most 1, ends of an interval in order; a status, id or method
- * cannot be; two rows are of one case. FM_NO_MEMORY. The caller frees *cases and the index, after
- * a failure too. */
+ * and column: another schema; a column is missing, or is unknown and stands before known ones
+ * (those of newer programs stand behind them); a number is none, or out of range: times and amounts
+ * are finite and not negative, shares at most 1, ends of an interval in order; a status, id or
+ * method cannot be; two rows are of one case. FM_NO_MEMORY. The caller frees *cases and the index,
+ * after a failure too. */
 fm_status cases_read(fm_case_row **cases, fm_text_index *ids, const fm_table *table,
                      const fm_provenance *manifest, fm_error *err);
 

@@ -57,8 +57,7 @@ static fm_status read_figures(fm_result_files *results, fm_error *err)
     for (size_t row = 0; status == FM_OK && row < results->figures->row_count; row++) {
         const char *name = table_cell(results->figures, row, figure);
         status = know_figure(results, name, row, err);
-        const size_t found =
-            text_index_find(&results->ids, table_cell(results->figures, row, id));
+        const size_t found = text_index_find(&results->ids, table_cell(results->figures, row, id));
         if (found != FM_TEXT_INDEX_NONE)
             results->cases[found].figures |= result_files_figure(results, name);
     }

@@ -229,9 +229,9 @@ fm_status table_check_schema(const fm_table *table, const char *known, fm_error 
     fm_status status = table_need_column(&column, table, "schema", err);
     for (size_t row = 0; row < table->row_count && status == FM_OK; row++)
         if (strcmp(table_cell(table, row, column), known) != 0)
-            status = fm_fail(err, FM_INVALID,
-                             "%s:%u: schema: \"%.40s\"; this program reads schema %s", table->path,
-                             table->lines[row], table_cell(table, row, column), known);
+            status =
+                fm_fail(err, FM_INVALID, "%s:%u: schema: \"%.40s\"; this program reads schema %s",
+                        table->path, table->lines[row], table_cell(table, row, column), known);
     return status;
 }
 

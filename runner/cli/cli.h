@@ -31,8 +31,8 @@ enum {
     "Exit codes: 0 done; 1 a claim that its figure declares required fails; 2 usage or spec "      \
     "error, nothing was run; 3 nothing could be measured; "                                        \
     "4 some cases failed (crash, timeout, out of memory, refused plugin, wrong image of an exact " \
-    "method); 5 incomplete: the run's own files failed, and the same command continues it, or "              \
-    "the report cannot be drawn, or lacks something; "       \
+    "method); 5 incomplete: the run's own files failed, and the same command continues it, or "    \
+    "the report cannot be drawn, or lacks something; "                                             \
     "8 damaged or foreign file; 130, 143 interrupted: the same command continues it."
 
 /* What main.c hands to every subcommand. */

@@ -153,15 +153,15 @@ static bool write_object(FILE *out, json_t *object, size_t flags)
 /* Case by case: all of a large plan as one tree takes gigabytes. */
 static int write_json(const fm_cli *cli, const fm_plan *plan)
 {
-    bool is_written = fputs("{\n", cli->out) != EOF &&
-                      write_object(cli->out,
-                                   json_pack("{s:i, s:I, s:i, s:i, s:i, s:f}", "schema", 1, "seed",
-                                             (json_int_t)plan->seed, "launches",
-                                             (int)plan->launches, "frames", (int)plan->frames,
-                                             "warmup", (int)plan->warmup, "estimated_s",
-                                             plan_seconds(plan)),
-                                   JSON_EMBED) &&
-                      fputs(",\n\"cases\": [", cli->out) != EOF;
+    bool is_written =
+        fputs("{\n", cli->out) != EOF &&
+        write_object(cli->out,
+                     json_pack("{s:i, s:I, s:i, s:i, s:i, s:f}", "schema", 1, "seed",
+                               (json_int_t)plan->seed, "launches", (int)plan->launches, "frames",
+                               (int)plan->frames, "warmup", (int)plan->warmup, "estimated_s",
+                               plan_seconds(plan)),
+                     JSON_EMBED) &&
+        fputs(",\n\"cases\": [", cli->out) != EOF;
     for (size_t i = 0; i < plan->count && is_written; i++)
         is_written = fputs(i > 0 ? ",\n" : "\n", cli->out) != EOF &&
                      write_object(cli->out, case_json(&plan->cases[i]), JSON_INDENT(2));

@@ -48,8 +48,8 @@ typedef struct fm_case_result {
 typedef struct fm_results {
     const fm_plan *plan;
     const fm_plugin_list *plugins;
-    fm_case_result *cases; /* [plan->count] */
-    json_t *meshes;        /* by file: what was loaded, as answers say it */
+    fm_case_result *cases;     /* [plan->count] */
+    json_t *meshes;            /* by file: what was loaded, as answers say it */
     double *fastest_canary_ns; /* of each device of the plan; INFINITY: none so far */
     /* Of summary.csv: */
     size_t unwritten; /* cases that were finished since it was written */
@@ -78,10 +78,10 @@ bool results_is_finished(const fm_results *results, size_t case_index);
 /* Writes summary.csv: a row for each case that was launched or is not to be. */
 fm_status results_write_summary(fm_results *results, fm_error *err);
 
-/* For a case that was just finished: writes summary.csv, but leaves it as it is, for the next call or
- * the end of the run, where less than 1/64 of the cases were finished since it was written and less
- * than 2 s, or 20 times as long as writing took, have gone by. So all writing together stays in
- * proportion to the cases, and the journal has what the file lacks. now_s: of clock_s. */
+/* For a case that was just finished: writes summary.csv, but leaves it as it is, for the next call
+ * or the end of the run, where less than 1/64 of the cases were finished since it was written and
+ * less than 2 s, or 20 times as long as writing took, have gone by. So all writing together stays
+ * in proportion to the cases, and the journal has what the file lacks. now_s: of clock_s. */
 fm_status results_write_summary_if_due(fm_results *results, double now_s, fm_error *err);
 
 /* Once, at the end of a run. Slow clocks are known only now: samples off full clock are marked in

@@ -1,5 +1,5 @@
-/* Result files that are damaged, foreign or short: refused with file, line and column, or read with a
- * word on what is missing. */
+/* Result files that are damaged, foreign or short: refused with file, line and column, or read with
+ * a word on what is missing. */
 #include <unistd.h>
 
 #include "claims_kit.h"
@@ -70,11 +70,14 @@ static void each_damaged_cell_is_named(void **state)
         const char *column, *value, *says;
     } damage[] = {
         { "summary.csv", 2, "schema", "2", "summary.csv:3: schema: \"2\"; this program reads sch" },
-        { "summary.csv", 2, "", NULL, "summary.csv:4: case_id: \"c1\" has a row already, in line 3" },
+        { "summary.csv", 2, "", NULL,
+          "summary.csv:4: case_id: \"c1\" has a row already, in line 3" },
         { "summary.csv", 1, "status", "fine", "summary.csv:2: status \"fine\" is none of" },
         { "summary.csv", 1, "frame_ms", "-5", "summary.csv:2: frame_ms: \"-5\": a finite number" },
-        { "summary.csv", 1, "frame_ms", "inf", "summary.csv:2: frame_ms: \"inf\": a finite number" },
-        { "summary.csv", 1, "store_ms", "nan", "summary.csv:2: store_ms: \"nan\": a finite number" },
+        { "summary.csv", 1, "frame_ms", "inf",
+          "summary.csv:2: frame_ms: \"inf\": a finite number" },
+        { "summary.csv", 1, "store_ms", "nan",
+          "summary.csv:2: store_ms: \"nan\": a finite number" },
         { "summary.csv", 1, "frame_ms", "1x", "summary.csv:2: frame_ms: \"1x\" is not a number" },
         { "summary.csv", 1, "frame_ms_low", "99", "summary.csv:2: frame_ms_low: 99 is above" },
         { "summary.csv", 1, "missing", "-1", "summary.csv:2: missing: \"-1\": a finite number" },
@@ -82,7 +85,8 @@ static void each_damaged_cell_is_named(void **state)
         { "summary.csv", 1, "width_px", "-64", "summary.csv:2: width_px: \"-64\": a finite" },
         { "summary.csv", 1, "pixel_density", "25", "pixel_density: 25: a share is at most 1" },
         { "summary.csv", 1, "order", "a,b", "summary.csv:2: 52 cells where the header has 51" },
-        { "summary.csv", 0, "store_ms", "stor_ms", "summary.csv:1: no column \"store_ms\" (there " },
+        { "summary.csv", 0, "store_ms", "stor_ms",
+          "summary.csv:1: no column \"store_ms\" (there " },
         { "summary.csv", 0, "store_ms", "clear_ms", "summary.csv:1: column \"clear_ms\" appears" },
         { "summary.csv", 0, "n", "n,mad", "summary.csv:1: column \"mad\" is unknown" },
         { "samples.csv", 1, "schema", "2", "samples.csv:2: schema: \"2\"; this program reads" },
