@@ -1,5 +1,6 @@
 /* fragmark-report: arguments, exit codes, and the only place that prints. */
 #include <argp.h>
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,14 +8,12 @@
 
 #include "base/path.h"
 #include "claims/verdicts.h"
+#include "model/exit_code.h"
 #include "page/report.h"
-
-enum { EXIT_DONE = 0, EXIT_CLAIM = 1, EXIT_USAGE = 2, EXIT_DAMAGED = 8, FIGURES_MOST = 64 };
 
 typedef struct arguments {
     const char *directory;
-    const char *figures[FIGURES_MOST];
-    size_t figure_count;
+    fm_text_list figures;
     const char *reference; /* NULL: not given */
 } arguments;
 
@@ -23,10 +22,7 @@ static error_t parse(int key, char *value, struct argp_state *state)
     arguments *given = state->input;
     switch (key) {
     case 'f':
-        if (given->figure_count == FIGURES_MOST)
-            argp_error(state, "more than %d figures", FIGURES_MOST);
-        given->figures[given->figure_count++] = value;
-        return 0;
+        return text_list_add(&given->figures, value) ? 0 : ENOMEM;
     case 'r':
         given->reference = value;
         return 0;
@@ -70,32 +66,45 @@ static bool find_figure(char path[FM_PATH_MAX_BYTES], const char *name)
            is_in_folder(path, FM_FIGURES_INSTALL_DIR, strlen(FM_FIGURES_INSTALL_DIR), name);
 }
 
-/* The run says which figures it is for; those asked for on the command line come instead. One whose
- * file is no longer here costs its charts, not the report. */
-static void take_figures_of_run(arguments *given, const fm_provenance *manifest)
+/* The run says which figures it is for; those asked for on the command line come instead. Without
+ * one of them the report would lack its charts and claims, and replace one that has them. */
+static fm_status take_figures_of_run(arguments *given, const fm_provenance *manifest, fm_error *err)
 {
     char path[FM_PATH_MAX_BYTES];
-    for (size_t i = 0; i < manifest->figure_count && given->figure_count < FIGURES_MOST; i++) {
-        if (find_figure(path, manifest->figures[i]))
-            given->figures[given->figure_count++] = manifest->figures[i];
-        else
-            fprintf(stderr, "fragmark-report: figure %s is not here: left out\n",
-                    manifest->figures[i]);
+    for (size_t i = 0; i < manifest->figure_count; i++) {
+        if (!find_figure(path, manifest->figures[i]))
+            return fm_fail(err, FM_INVALID,
+                           "figure \"%s\", for which %s was measured, is not here: "
+                           "FRAGMARK_FIGURE_PATH names folders of figures, and --figure those to "
+                           "draw instead",
+                           manifest->figures[i], given->directory);
+        if (!text_list_add(&given->figures, manifest->figures[i]))
+            return fm_fail(err, FM_NO_MEMORY, "no memory for %zu figures", manifest->figure_count);
     }
+    return FM_OK;
 }
 
 static fm_status read_figures(fm_paper_figure **figures, const arguments *given, fm_error *err)
 {
     char path[FM_PATH_MAX_BYTES];
-    for (size_t i = 0; i < given->figure_count; i++) {
-        if (!find_figure(path, given->figures[i]))
+    if (figures == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "no memory for %zu figures", given->figures.count);
+    for (size_t i = 0; i < given->figures.count; i++) {
+        if (!find_figure(path, given->figures.items[i]))
             return fm_fail(err, FM_INVALID, "figure \"%s\": no such file, and no such id in %s",
-                           given->figures[i], FM_FIGURES_SOURCE_DIR);
+                           given->figures.items[i], FM_FIGURES_SOURCE_DIR);
         fm_status status = paper_figure_read(&figures[i], path, err);
         if (status != FM_OK)
             return status;
     }
     return FM_OK;
+}
+
+static void close_figures(fm_paper_figure **figures, const arguments *given)
+{
+    for (size_t i = 0; figures != NULL && i < given->figures.count; i++)
+        paper_figure_close(figures[i]);
+    free(figures);
 }
 
 /* Another machine's results: a folder, or the name of one in reports/reference. */
@@ -116,9 +125,8 @@ static fm_status open_reference(fm_result_files **reference, char path[FM_PATH_M
         if (access(path, F_OK) == 0)
             return result_files_read(reference, path, err);
     }
-    return given->reference == NULL
-               ? FM_OK
-               : fm_fail(err, FM_INVALID, "no reference \"%s\" in %s", name, folders[0]);
+    return fm_fail(err, FM_INVALID, "no reference \"%s\" in %s; --reference none does without it",
+                   name, folders[0]);
 }
 
 /* A run is no other machine's reference of itself. */
@@ -130,22 +138,6 @@ static void drop_own_reference(fm_result_files **reference, const fm_result_file
         return;
     result_files_close(*reference);
     *reference = NULL;
-}
-
-/* Judges and writes claims.csv, where the figures make claims. */
-static fm_status judge_claims(fm_claim_results *verdicts, const fm_report_desc *report,
-                              fm_error *err)
-{
-    char path[FM_PATH_MAX_BYTES];
-    const fm_verdicts_desc desc = { .results = report->results,
-                                    .reference = report->reference,
-                                    .figures = report->figures,
-                                    .figure_count = report->figure_count };
-    fm_status status = verdicts_make(verdicts, &desc, err);
-    if (status != FM_OK || verdicts->count == 0)
-        return status;
-    status = path_join(path, report->results->directory, "claims.csv", err);
-    return status != FM_OK ? status : verdicts_write(verdicts, path, err);
 }
 
 static int tell(const arguments *given, const fm_report_outcome *outcome,
@@ -164,42 +156,68 @@ static int tell(const arguments *given, const fm_report_outcome *outcome,
     if (failed > 0)
         fm_fail(err, FM_OK, "%zu claim%s that must hold fail%s: see claims.csv", failed,
                 failed == 1 ? "" : "s", failed == 1 ? "s" : "");
-    return failed == 0 ? EXIT_DONE : EXIT_CLAIM;
+    return failed == 0 ? FM_EXIT_DONE : FM_EXIT_CLAIM_FAILS;
 }
 
-static int make_report(arguments *given, fm_error *err)
+/* Whose fault it is that a report cannot be written: the disk's, or a file's that it is made of. */
+static int writing_code(fm_status status)
 {
-    int code = EXIT_DAMAGED;
-    char reference_path[FM_PATH_MAX_BYTES]; /* lives as long as what is read from there */
-    fm_result_files *results = NULL, *reference = NULL;
-    fm_paper_figure *figures[FIGURES_MOST] = { NULL };
-    const fm_paper_figure *borrowed[FIGURES_MOST] = { NULL };
+    return status == FM_IO || status == FM_NO_MEMORY ? FM_EXIT_INCOMPLETE : FM_EXIT_DAMAGED;
+}
+
+/* Judges, draws, and puts all in place. */
+static int write_report(const arguments *given, const fm_report_desc *base, fm_error *err)
+{
     fm_claim_results verdicts = { 0 };
     fm_report_outcome outcome;
-    if (result_files_read(&results, given->directory, err) != FM_OK ||
-        open_reference(&reference, reference_path, given, err) != FM_OK)
+    fm_report_desc report = *base;
+    const fm_verdicts_desc desc = { .results = report.results,
+                                    .reference = report.reference,
+                                    .figures = report.figures,
+                                    .figure_count = report.figure_count };
+    report.verdicts = &verdicts;
+    fm_status status = verdicts_make(&verdicts, &desc, err);
+    if (status == FM_OK)
+        status = report_write(&outcome, &report, err);
+    const int code = status == FM_OK ? tell(given, &outcome, &verdicts, err) : writing_code(status);
+    verdicts_free(&verdicts);
+    if (code != FM_EXIT_DONE || report.results->missing.count == 0)
+        return code;
+    fm_fail(err, FM_OK, "%s", report.results->missing.items[0]);
+    return FM_EXIT_INCOMPLETE;
+}
+
+/* What was named on the command line and is not there is wrong use; what the run or the report
+ * needs of itself is a file that is gone. */
+static int make_report(arguments *given, fm_error *err)
+{
+    int code = FM_EXIT_DAMAGED;
+    char reference_path[FM_PATH_MAX_BYTES]; /* lives as long as what is read from there */
+    fm_result_files *results = NULL, *reference = NULL;
+    fm_paper_figure **figures = NULL;
+    const bool has_named = given->figures.count > 0;
+    if (result_files_read(&results, given->directory, err) != FM_OK)
         goto out;
-    drop_own_reference(&reference, results);
-    if (given->figure_count == 0)
-        take_figures_of_run(given, results->manifest);
-    if (read_figures(figures, given, err) != FM_OK) {
-        code = EXIT_USAGE;
+    if (open_reference(&reference, reference_path, given, err) != FM_OK) {
+        code = given->reference != NULL ? FM_EXIT_USAGE : FM_EXIT_DAMAGED;
         goto out;
     }
-    memcpy(borrowed, figures, sizeof figures);
+    drop_own_reference(&reference, results);
+    if (!has_named && take_figures_of_run(given, results->manifest, err) != FM_OK)
+        goto out;
+    figures = calloc(given->figures.count + 1, sizeof *figures);
+    if (read_figures(figures, given, err) != FM_OK) {
+        code = has_named ? FM_EXIT_USAGE : FM_EXIT_DAMAGED;
+        goto out;
+    }
     const fm_report_desc desc = { .results = results,
                                   .reference = reference,
                                   .draws_reference = given->reference != NULL,
-                                  .verdicts = &verdicts,
-                                  .figures = borrowed,
-                                  .figure_count = given->figure_count };
-    if (judge_claims(&verdicts, &desc, err) != FM_OK || report_write(&outcome, &desc, err) != FM_OK)
-        goto out;
-    code = tell(given, &outcome, &verdicts, err);
+                                  .figures = (const fm_paper_figure *const *)figures,
+                                  .figure_count = given->figures.count };
+    code = write_report(given, &desc, err);
 out:
-    verdicts_free(&verdicts);
-    for (size_t i = 0; i < given->figure_count; i++)
-        paper_figure_close(figures[i]);
+    close_figures(figures, given);
     result_files_close(reference);
     result_files_close(results);
     return code;
@@ -231,15 +249,19 @@ int main(int argc, char **argv)
                "  fragmark-report out/mine --figure kplus-05\n"
                "  fragmark-report out/mine --figure my-figure.yml\n\n"
                "Exit status: 0 done, 1 a claim that its figure declares required fails, 2 wrong "
-               "use or a bad figure file, 8 damaged or foreign "
-               "results.",
+               "use: a figure or reference that is named and not there, or a bad figure file, "
+               "5 the report cannot be written, or was drawn of results that lack something, which "
+               "its first lines say, 8 damaged or foreign results, or figures of the run that are "
+               "gone. After 2 and 8, and where writing failed, the report that was there is as it "
+               "was.",
     };
     arguments given = { 0 };
     fm_error err = { 0 };
-    argp_err_exit_status = EXIT_USAGE;
+    argp_err_exit_status = FM_EXIT_USAGE;
     argp_parse(&argp, argc, argv, 0, NULL, &given);
     int code = make_report(&given, &err);
-    if (code != EXIT_DONE)
+    text_list_free(&given.figures);
+    if (code != FM_EXIT_DONE)
         fprintf(stderr, "fragmark-report: %s\n", err.message);
     return code;
 }

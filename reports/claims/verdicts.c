@@ -11,8 +11,6 @@
 #include "read/figure_cases.h"
 #include "summary_points.h"
 
-enum { DEVICES_MOST = 16 };
-
 /* What the functions below share. */
 typedef struct verdicts_job {
     fm_claim_results *to;
@@ -20,8 +18,8 @@ typedef struct verdicts_job {
     const fm_paper_figure *figure;
     const fm_table *memory;
     bool is_reference;
-    bool *takes;                       /* [results->count] */
-    const char *devices[DEVICES_MOST]; /* names of the results' devices; "" of none known */
+    bool *takes;          /* [results->count] */
+    const char **devices; /* names of the results' devices; "" of none known */
     size_t device_count;
     fm_error *err;
 } verdicts_job;
@@ -31,7 +29,7 @@ static void find_devices(verdicts_job *job)
     job->device_count = 0;
     for (size_t i = 0; i < job->results->count; i++) {
         const char *name = job->results->cases[i].device_name;
-        bool is_known = name[0] == '\0' || job->device_count == DEVICES_MOST;
+        bool is_known = name[0] == '\0';
         for (size_t j = 0; j < job->device_count && !is_known; j++)
             is_known = strcmp(job->devices[j], name) == 0;
         if (!is_known)
@@ -199,7 +197,8 @@ static fm_status open_job(verdicts_job *job, const fm_result_files *results, fm_
     if (results == NULL)
         return FM_OK;
     job->takes = calloc(results->count + 1, sizeof *job->takes);
-    if (job->takes == NULL)
+    job->devices = calloc(results->count + 1, sizeof *job->devices);
+    if (job->takes == NULL || job->devices == NULL)
         return fm_fail(err, FM_NO_MEMORY, "%zu cases", results->count);
     find_devices(job);
     return FM_OK;
@@ -216,7 +215,9 @@ fm_status verdicts_make(fm_claim_results *verdicts, const fm_verdicts_desc *desc
     for (size_t i = 0; i < desc->figure_count && status == FM_OK; i++)
         status = judge_figure(&own, &reference, desc->figures[i]);
     free(own.takes);
+    free(own.devices);
     free(reference.takes);
+    free(reference.devices);
     if (status != FM_OK)
         verdicts_free(verdicts);
     return status;

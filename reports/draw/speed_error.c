@@ -5,7 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LABEL_PX = 10 };
+/* More points than POINTS_MOST are a cloud: the frontier alone is drawn, and the chart says so. */
+enum { LABEL_PX = 10, LABELS_MOST = 400, POINTS_MOST = 1000 };
 static const double plot_width_px = 620, plot_height_px = 400;
 static const double marker_least_px = 8, marker_most_px = 19;
 static const fm_colour frontier_grey = { 205, 205, 205 };
@@ -28,22 +29,42 @@ static bool is_candidate(const fm_case_row *result)
     return result->is_ok && has_point(result) && !result->look.is_control;
 }
 
-void speed_error_frontier(bool *on, const fm_group *group)
+/* A case that may be on the frontier. */
+typedef struct candidate {
+    double ms, error;
+    size_t index; /* in the group */
+} candidate;
+
+static int compare_candidates(const void *a, const void *b)
 {
+    const candidate *x = a, *y = b;
+    const int order = (x->ms > y->ms) - (x->ms < y->ms);
+    return order != 0 ? order : (x->error > y->error) - (x->error < y->error);
+}
+
+/* From the fastest on, who has less error than all before; and who is as good as the last such. */
+bool speed_error_frontier(bool *on, const fm_group *group)
+{
+    size_t count = 0;
+    candidate best = { .error = INFINITY };
+    candidate *sorted = calloc(group->count + 1, sizeof *sorted);
+    if (sorted == NULL)
+        return false;
     for (size_t i = 0; i < group->count; i++) {
         const fm_case_row *one = group->cases[i];
-        on[i] = is_candidate(one);
-        for (size_t j = 0; j < group->count && on[i]; j++) {
-            const fm_case_row *other = group->cases[j];
-            if (!is_candidate(other))
-                continue;
-            bool as_good = other->metric[FM_METRIC_FRAME_MS] <= one->metric[FM_METRIC_FRAME_MS] &&
-                           error_of(other) <= error_of(one);
-            bool better = other->metric[FM_METRIC_FRAME_MS] < one->metric[FM_METRIC_FRAME_MS] ||
-                          error_of(other) < error_of(one);
-            on[i] = !(as_good && better);
-        }
+        on[i] = false;
+        if (is_candidate(one))
+            sorted[count++] = (candidate){ one->metric[FM_METRIC_FRAME_MS], error_of(one), i };
     }
+    qsort(sorted, count, sizeof *sorted, compare_candidates);
+    for (size_t i = 0; i < count; i++) {
+        const bool is_equal = sorted[i].error == best.error && sorted[i].ms == best.ms;
+        on[sorted[i].index] = is_equal || sorted[i].error < best.error;
+        if (sorted[i].error < best.error)
+            best = sorted[i];
+    }
+    free(sorted);
+    return true;
 }
 
 static int compare_points(const void *a, const void *b)
@@ -66,12 +87,11 @@ static void make_stairs(fm_chart *chart, fm_series *series)
     }
 }
 
-static void add_frontier(fm_chart *chart, const fm_group *group, bool *on)
+static void add_frontier(fm_chart *chart, const fm_group *group, const bool *on)
 {
     fm_series *series = chart_add_series(chart);
     if (series == NULL)
         return;
-    speed_error_frontier(on, group);
     for (size_t i = 0; i < group->count; i++)
         if (on[i])
             chart_add_point(chart, series,
@@ -98,9 +118,15 @@ static double marker_px(const fm_case_row *result, double bytes_most)
                                  sqrt(result->metric[FM_METRIC_BYTES_ALLOCATED] / bytes_most);
 }
 
+/* What the points of a chart share. */
+typedef struct look_of_points {
+    double bytes_most; /* of any case */
+    const bool *shown; /* [group->count]: the cases that have a point; NULL: all */
+} look_of_points;
+
 /* The points of one method with one status: solid when ok, hollow when not. */
 static void add_method(fm_chart *chart, const fm_group *group, size_t first, bool is_ok,
-                       double bytes_most)
+                       const look_of_points *look)
 {
     const fm_case_row *one = group->cases[first];
     fm_series *series = chart_add_series(chart);
@@ -110,14 +136,14 @@ static void add_method(fm_chart *chart, const fm_group *group, size_t first, boo
     group_series_title(title, one, NULL);
     for (size_t i = first; i < group->count && group_same_series(group->cases[i], one); i++) {
         const fm_case_row *result = group->cases[i];
-        if (has_point(result) && result->is_ok == is_ok)
+        if (has_point(result) && result->is_ok == is_ok && (look->shown == NULL || look->shown[i]))
             chart_add_point(chart, series,
                             &(fm_point){
                                 .x = error_of(result),
                                 .y = result->metric[FM_METRIC_FRAME_MS],
                                 .low = result->low[FM_METRIC_FRAME_MS],
                                 .high = result->high[FM_METRIC_FRAME_MS],
-                                .size_px = marker_px(result, bytes_most),
+                                .size_px = marker_px(result, look->bytes_most),
                             });
     }
     if (series->point_count == 0)
@@ -194,6 +220,8 @@ static void add_label(fm_chart *chart, taken_boxes *taken, const box *marker, co
 static void add_labels(fm_chart *chart, const fm_group *group, box *boxes, double bytes_most)
 {
     taken_boxes taken = { .boxes = boxes };
+    if (group->count > LABELS_MOST) /* there is no room for them */
+        return;
     for (size_t i = 0; i < group->count; i++)
         if (has_point(group->cases[i]))
             taken.boxes[taken.count++] = marker_box(chart, group->cases[i], bytes_most);
@@ -253,18 +281,29 @@ fm_status speed_error_chart(fm_chart *chart, const fm_group *group, fm_error *er
         status = fm_fail(err, FM_NO_MEMORY, "chart of %s", group->title);
         goto out;
     }
-    if (fit_axes(chart, group, values) == 0) {
+    const size_t points = fit_axes(chart, group, values);
+    if (!speed_error_frontier(on, group)) {
+        status = fm_fail(err, FM_NO_MEMORY, "chart of %s", group->title);
+        goto out;
+    }
+    if (points == 0) {
         status = fm_fail(err, FM_UNSUPPORTED, "%s: no case has a time and an error", group->title);
         goto out;
     }
     snprintf(chart->title, sizeof chart->title, "Speed against error: %.120s", group->title);
-    snprintf(chart->subtitle, sizeof chart->subtitle, "%s", group->workload);
+    const look_of_points look = { bytes_most, points > POINTS_MOST ? on : NULL };
+    if (look.shown == NULL)
+        snprintf(chart->subtitle, sizeof chart->subtitle, "%s", group->workload);
+    else
+        snprintf(chart->subtitle, sizeof chart->subtitle,
+                 "%.120s; of %zu cases, only those on the frontier are drawn", group->workload,
+                 points);
     add_frontier(chart, group, on);
     for (size_t i = 0; i < group->count; i++) {
         if (i > 0 && group_same_series(group->cases[i - 1], group->cases[i]))
             continue;
-        add_method(chart, group, i, true, bytes_most);
-        add_method(chart, group, i, false, bytes_most);
+        add_method(chart, group, i, true, &look);
+        add_method(chart, group, i, false, &look);
     }
     add_labels(chart, group, taken, bytes_most);
     snprintf(chart->notes[0], sizeof chart->notes[0], "lower left is better");

@@ -89,9 +89,8 @@ static void add_status(fm_text *page, const fm_case_row *result)
     text_add(page, "</td>");
 }
 
-static void add_row(fm_text *page, const fm_group *group, size_t index, bool on_frontier)
+static void add_row(fm_text *page, const fm_case_row *result, bool on_frontier, bool has_messages)
 {
-    const fm_case_row *result = group->cases[index];
     char title[96];
     group_series_title(title, result, NULL);
     text_add(page, "<tr class=\"%s\"><td data-v=\"%d\">%s</td><td class=name>",
@@ -113,7 +112,7 @@ static void add_row(fm_text *page, const fm_group *group, size_t index, bool on_
     html_add_number(page, 3, result->metric[FM_METRIC_RMSE]);
     html_add_number(page, 3, result->metric[FM_METRIC_TOTAL_RMSE]);
     html_add_number(page, 3, result->metric[FM_METRIC_TRUNCATION_RMSE]);
-    if (has_message(group)) {
+    if (has_messages) {
         text_add(page, "<td class=message>");
         html_add(page, result->message);
         text_add(page, "</td>");
@@ -137,13 +136,14 @@ void case_table_add(fm_text *page, const fm_group *group)
         page->failed = true;
         return;
     }
-    speed_error_frontier(on, group);
+    page->failed |= !speed_error_frontier(on, group);
+    const bool has_messages = has_message(group);
     text_add(page, "<div class=table><table><thead><tr>");
-    for (size_t i = 0; i < COLUMN_COUNT - (has_message(group) ? 0 : 1); i++)
+    for (size_t i = 0; i < COLUMN_COUNT - (has_messages ? 0 : 1); i++)
         add_head(page, i);
     text_add(page, "</tr></thead><tbody>\n");
     for (size_t i = 0; i < group->count; i++)
-        add_row(page, group, i, on[i]);
+        add_row(page, group->cases[i], on[i], has_messages);
     text_add(page, "</tbody></table></div>\n");
     free(on);
 }

@@ -6,6 +6,7 @@
 
 #include "html.h"
 #include "model/family.h"
+#include "publish.h"
 #include "read/case_metrics.h"
 #include "read/group.h"
 
@@ -77,16 +78,23 @@ void page_begin(fm_text *page, const fm_result_files *results)
     const size_t ok = count_outcome(results, FM_CASE_OK);
     const size_t not_supported = count_outcome(results, FM_CASE_NOT_SUPPORTED);
     const size_t wrong_image = count_outcome(results, FM_CASE_WRONG_IMAGE);
-    text_add(page,
-             "<!doctype html>\n<html lang=en><head><meta charset=utf-8>\n"
-             "<meta name=viewport content=\"width=device-width, initial-scale=1\">\n"
-             "<title>fragmark report</title>\n<style>\n%s</style></head><body>\n",
-             page_css);
+    text_add(
+        page,
+        "<!doctype html>\n<html lang=en><head><meta charset=utf-8>\n"
+        "<meta name=viewport content=\"width=device-width, initial-scale=1\">\n" FM_PUBLISH_MARK
+        "%zu>\n"
+        "<title>fragmark report</title>\n<style>\n%s</style></head><body>\n",
+        results->missing.count, page_css);
     text_add(page,
              "<h1>fragmark report</h1>\n<p class=faint>%zu cases: %zu ok, %zu not supported, "
              "%zu with a wrong image, %zu that failed or were skipped.</p>\n",
              results->count, ok, not_supported, wrong_image,
              results->count - ok - not_supported - wrong_image);
+    for (size_t i = 0; i < results->missing.count; i++) {
+        text_add(page, "<p class=note>");
+        html_add(page, results->missing.items[i]);
+        text_add(page, ".</p>\n");
+    }
     add_trust(page, results);
     text_add(page, "<dl>\n");
     add_fact(page, "what", provenance_fact(manifest, "command"));

@@ -1,27 +1,12 @@
 #include "report.h"
 
-#include <errno.h>
-#include <string.h>
-#include <sys/stat.h>
-
-#include "base/path.h"
 #include "page.h"
 #include "paper_section.h"
 #include "picture_section.h"
+#include "publish.h"
 #include "read/group.h"
 #include "speed_section.h"
 #include "writer.h"
-
-static fm_status make_folder(const fm_writer *to, const char *name)
-{
-    char path[FM_PATH_MAX_BYTES];
-    const fm_status status = path_join(path, to->results->directory, name, to->err);
-    if (status != FM_OK)
-        return status;
-    if (mkdir(path, 0777) != 0 && errno != EEXIST)
-        return fm_fail(to->err, FM_IO, "%s: %s", path, strerror(errno));
-    return FM_OK;
-}
 
 static fm_status write_sections(fm_writer *to, const fm_report_desc *desc)
 {
@@ -50,18 +35,19 @@ static fm_status write_sections(fm_writer *to, const fm_report_desc *desc)
 
 fm_status report_write(fm_report_outcome *outcome, const fm_report_desc *desc, fm_error *err)
 {
-    char path[FM_PATH_MAX_BYTES];
+    const char *directory = desc->results->directory;
     fm_writer to = { .desc = desc, .results = desc->results, .outcome = outcome, .err = err };
     *outcome = (fm_report_outcome){ 0 };
-    fm_status status = make_folder(&to, "charts");
-    if (status == FM_OK)
-        status = write_sections(&to, desc);
+    fm_status status = publish_begin(directory, desc->results->missing.count, err);
+    if (status != FM_OK)
+        return status;
+    status = write_sections(&to, desc);
     if (status == FM_OK && to.page.failed)
         status = fm_fail(err, FM_NO_MEMORY, "report.html");
+    const fm_publish_desc made = { directory, &to.page, desc->verdicts };
     if (status == FM_OK)
-        status = path_join(path, desc->results->directory, "report.html", err);
-    if (status == FM_OK)
-        status = text_write_file(path, to.page.bytes, to.page.length, err);
+        status = publish_end(&made, err);
+    publish_drop(directory);
     text_free(&to.page);
     return status;
 }

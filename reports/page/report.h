@@ -1,10 +1,11 @@
 /* A directory of results becomes charts/, pictures and report.html.
  *
  * The room reports/page writes the report: one file that opens from disk, with charts, tables and
- * pictures inside. report.c puts the sections in order (paper_section, picture_section,
- * speed_section, page.h for all that is the same in every report); writer.h is what they share;
- * html.h, case_table, memory_rows and verdict_table are pieces. HTML is written nowhere else. What
- * is shown is worked out below: numbers by read, verdicts by claims, charts and PNGs by draw. */
+ * pictures inside. report.c puts the sections in order (publish.h puts all files in place;
+ * paper_section, picture_section, speed_section, page.h for all that is the same in every report);
+ * writer.h is what they share; html.h, case_table, memory_rows and verdict_table are pieces. HTML
+ * is written nowhere else. What is shown is worked out below: numbers by read, verdicts by claims,
+ * charts and PNGs by draw. */
 #ifndef FM_REPORT_H
 #define FM_REPORT_H
 
@@ -30,9 +31,11 @@ typedef struct fm_report_outcome {
     size_t chart_count, picture_count;
 } fm_report_outcome;
 
-/* Writes charts/NAME.svg and .png, pictures in images/, and report.html at last, whole or not at
- * all; files that are there are replaced. FM_IO, FM_NO_MEMORY; FM_INVALID: a damaged picture or
- * table, or a path that is too long. */
+/* Writes charts/NAME.svg and .png, claims.csv, pictures in images/, and report.html. All but the
+ * pictures are put in place together when everything is drawn (publish.h): if it fails, the report
+ * that was there stays. Without a claim there is no claims.csv. FM_IO, FM_NO_MEMORY; FM_INVALID: a
+ * damaged picture or table, a path that is too long, or the report that is there was made of
+ * results that lacked less. */
 fm_status report_write(fm_report_outcome *outcome, const fm_report_desc *desc, fm_error *err);
 
 #endif

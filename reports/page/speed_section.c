@@ -6,16 +6,22 @@
 #include "draw/speed_error.h"
 #include "html.h"
 
-static fm_status add_group(fm_writer *to, const fm_group *group)
+/* A reader compares a few charts; all workloads have a table. */
+enum { CHARTS_MOST = 24 };
+
+static fm_status add_group(fm_writer *to, const fm_group *group, bool has_chart)
 {
     fm_chart chart;
     char name[160];
+    fm_status status = FM_OK;
     text_add(&to->page, "<p class=faint>");
     html_add(&to->page, group->workload);
     text_add(&to->page, "</p>\n");
     snprintf(name, sizeof name, "speed-error-%s", group->name);
-    fm_status status = speed_error_chart(&chart, group, to->err);
-    status = writer_add_chart(to, &chart, status, name);
+    if (has_chart) {
+        status = speed_error_chart(&chart, group, to->err);
+        status = writer_add_chart(to, &chart, status, name);
+    }
     if (status == FM_OK)
         case_table_add(&to->page, group);
     return status;
@@ -26,6 +32,11 @@ fm_status speed_section_add(fm_writer *to, const fm_groups *groups, bool is_fold
 {
     fm_status status = FM_OK;
     text_add(&to->page, "<h2 id=speed>Speed against error</h2>\n");
+    if (groups->count > CHARTS_MOST)
+        text_add(
+            &to->page,
+            "<p class=note>The first %d of %zu workloads have a chart; all have a table.</p>\n",
+            CHARTS_MOST, groups->count);
     for (size_t i = 0; i < groups->count && status == FM_OK; i++) {
         text_add(&to->page, is_folded ? "<details><summary>" : "<h3>");
         html_add(&to->page, groups->groups[i].title);
@@ -34,7 +45,7 @@ fm_status speed_section_add(fm_writer *to, const fm_groups *groups, bool is_fold
             html_add(&to->page, groups->groups[i].workload);
         }
         text_add(&to->page, is_folded ? "</summary>\n" : "</h3>\n");
-        status = add_group(to, &groups->groups[i]);
+        status = add_group(to, &groups->groups[i], i < CHARTS_MOST);
         text_add(&to->page, is_folded ? "</details>\n" : "");
     }
     if (groups->count == 0)

@@ -7,15 +7,16 @@
 #include "base/path.h"
 #include "draw/svg_png.h"
 #include "html.h"
+#include "publish.h"
 
 static const double png_zoom = 2.0;
 
-/* charts/NAME ENDING */
+/* NAME ENDING, where charts wait until the report is done. */
 static fm_status chart_path(char path[FM_PATH_MAX_BYTES], const fm_writer *to, const char *name,
                             const char *ending)
 {
     char file[320];
-    snprintf(file, sizeof file, "charts/%.256s%s", name, ending);
+    snprintf(file, sizeof file, FM_PUBLISH_CHARTS "/%.256s%s", name, ending);
     return path_join(path, to->results->directory, file, to->err);
 }
 

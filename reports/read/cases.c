@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/text.h"
+
 /* Where the texts and keys of a row are kept; its metrics are an array. */
 static const size_t fact_at[FM_FACT_COUNT] = {
     [FM_FACT_SCHEMA] = SIZE_MAX, /* not kept */
@@ -76,6 +78,30 @@ static fm_status check(fm_case_row *result, const fm_table *table, size_t row, f
     return FM_OK;
 }
 
+static fm_status check_share(double share, const char *name, const fm_table *table, size_t row,
+                             fm_error *err)
+{
+    return isnan(share) || share <= 1.0
+               ? FM_OK
+               : fm_fail(err, FM_INVALID, "%s:%u: %s: %g: a share is at most 1", table->path,
+                         table->lines[row], name, share);
+}
+
+/* What the cells say together. */
+static fm_status check_numbers(const fm_case_row *result, const fm_table *table, size_t row,
+                               fm_error *err)
+{
+    fm_status status = check_share(result->pixel_density, "pixel_density", table, row, err);
+    if (status == FM_OK)
+        status = check_share(result->fragment_probability, "fragment_probability", table, row, err);
+    for (size_t i = 0; i < FM_METRIC_COUNT && status == FM_OK; i++)
+        if (result->low[i] > result->high[i])
+            status = fm_fail(err, FM_INVALID, "%s:%u: %s_low: %g is above %s_high, %g", table->path,
+                             table->lines[row], fm_metrics[i].name, result->low[i],
+                             fm_metrics[i].name, result->high[i]);
+    return status;
+}
+
 static void add_look(fm_case_row *result, const fm_provenance *manifest)
 {
     const fm_method_info *info = provenance_method(manifest, result->method);
@@ -105,6 +131,15 @@ static fm_status read_text(fm_case_row *result, size_t at, const char *text)
     return FM_OK;
 }
 
+/* Decibels and likenesses may be infinite, or below zero; all else is an amount. */
+static fm_status read_metric(double *value, fm_metric metric, const fm_table *table, size_t row,
+                             size_t index, fm_error *err)
+{
+    const bool is_likeness = metric == FM_METRIC_PSNR_DB || metric == FM_METRIC_SSIM;
+    return is_likeness ? table_number(value, table, row, index, err)
+                       : table_amount(value, table, row, index, err);
+}
+
 /* One cell, by what its column is. */
 static fm_status read_cell(fm_case_row *result, const fm_column *column, const fm_table *table,
                            size_t row, size_t index, fm_error *err)
@@ -115,7 +150,7 @@ static fm_status read_cell(fm_case_row *result, const fm_column *column, const f
     case FM_COLUMN_FACT:
         return fact_is_kept(column->fact) ? read_text(result, fact_at[column->fact], text) : FM_OK;
     case FM_COLUMN_METRIC:
-        return table_number(&result->metric[column->metric], table, row, index, err);
+        return read_metric(&result->metric[column->metric], column->metric, table, row, index, err);
     case FM_COLUMN_LOW:
         return table_number(&result->low[column->metric], table, row, index, err);
     case FM_COLUMN_HIGH:
@@ -127,7 +162,7 @@ static fm_status read_cell(fm_case_row *result, const fm_column *column, const f
     if (key == KEY_COUNT)
         return FM_OK;
     return keys[key].is_text ? read_text(result, keys[key].at, text)
-                             : table_number((double *)(void *)((char *)result + keys[key].at),
+                             : table_amount((double *)(void *)((char *)result + keys[key].at),
                                             table, row, index, err);
 }
 
@@ -146,17 +181,51 @@ static fm_status read_cells(fm_case_row *result, const fm_table *table, size_t r
     return status;
 }
 
-fm_status cases_read(fm_case_row **cases, const fm_table *table, const fm_provenance *manifest,
-                     fm_error *err)
+/* Columns of newer programs stand behind all that are known; others are no part of the file. */
+static fm_status check_columns(const fm_table *table, fm_error *err)
+{
+    size_t known = table->column_count;
+    while (known > 0 && !summary_has_column(table->names[known - 1]))
+        known--;
+    for (size_t i = 0; i < known; i++) {
+        if (summary_has_column(table->names[i]))
+            continue;
+        const char *names[FM_COLUMN_COUNT];
+        for (size_t j = 0; j < FM_COLUMN_COUNT; j++)
+            names[j] = column_name(&fm_columns[j]);
+        const char *nearest = text_nearest(table->names[i], names, FM_COLUMN_COUNT);
+        return fm_fail(err, FM_INVALID, "%s:1: column \"%.80s\" is unknown%s%s%s", table->path,
+                       table->names[i], nearest == NULL ? "" : "; the nearest is \"",
+                       nearest == NULL ? "" : nearest, nearest == NULL ? "" : "\"");
+    }
+    return FM_OK;
+}
+
+static fm_status index_id(fm_text_index *ids, const char *id, const fm_table *table, size_t row,
+                          fm_error *err)
+{
+    const size_t first = text_index_add(ids, id, row);
+    if (first == FM_TEXT_INDEX_NONE)
+        return fm_fail(err, FM_NO_MEMORY, "%s: %zu cases", table->path, table->row_count);
+    if (first != row)
+        return fm_fail(err, FM_INVALID, "%s:%u: case_id: \"%.64s\" has a row already, in line %u",
+                       table->path, table->lines[row], id, table->lines[first]);
+    return FM_OK;
+}
+
+fm_status cases_read(fm_case_row **cases, fm_text_index *ids, const fm_table *table,
+                     const fm_provenance *manifest, fm_error *err)
 {
     size_t index[FM_COLUMN_COUNT];
-    fm_status status = FM_OK;
     *cases = NULL;
+    fm_status status = table_check_schema(table, FM_SUMMARY_SCHEMA, err);
     for (size_t i = 0; i < FM_COLUMN_COUNT; i++)
         index[i] =
             table_column(table, column_name(&fm_columns[i])); /* a later one may be missing */
     for (size_t i = 0; i < FM_COLUMN_REQUIRED && status == FM_OK; i++)
         status = table_need_column(&index[i], table, column_name(&fm_columns[i]), err);
+    if (status == FM_OK)
+        status = check_columns(table, err);
     if (status != FM_OK)
         return status;
     fm_case_row *made = calloc(table->row_count + 1, sizeof *made);
@@ -167,6 +236,10 @@ fm_status cases_read(fm_case_row **cases, const fm_table *table, const fm_proven
         if (status == FM_OK)
             status = check(&made[row], table, row, err);
         if (status == FM_OK)
+            status = check_numbers(&made[row], table, row, err);
+        if (status == FM_OK)
+            status = index_id(ids, made[row].id, table, row, err);
+        if (status == FM_OK)
             add_look(&made[row], manifest);
     }
     if (status != FM_OK) {
@@ -175,16 +248,6 @@ fm_status cases_read(fm_case_row **cases, const fm_table *table, const fm_proven
     }
     *cases = made;
     return FM_OK;
-}
-
-uint32_t cases_find(const fm_case_row *cases, size_t count, const char *id, uint32_t guess)
-{
-    if (guess < count && strcmp(cases[guess].id, id) == 0)
-        return guess;
-    for (uint32_t i = 0; i < count; i++)
-        if (strcmp(cases[i].id, id) == 0)
-            return i;
-    return UINT32_MAX;
 }
 
 /* The number in a column that is not a key's; NULL: there is no such column. */

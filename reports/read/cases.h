@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "base/error.h"
+#include "base/text_index.h"
 #include "model/columns.h"
 #include "model/outcome.h"
 #include "provenance.h"
@@ -37,14 +38,14 @@ typedef struct fm_case_row {
     bool is_software;  /* the device; also where the manifest does not list it yet */
 } fm_case_row;
 
-/* One row of the table each, in its order. FM_INVALID: a column is missing, a number is none, or a
- * status, id or method cannot be; FM_NO_MEMORY. The caller frees *cases. */
-fm_status cases_read(fm_case_row **cases, const fm_table *table, const fm_provenance *manifest,
-                     fm_error *err);
-
-/* The index of the case of that id. guess: where to look first, for rows of a case follow one
- * another in files. UINT32_MAX: none, such as a case of a stopped run that has no row yet. */
-uint32_t cases_find(const fm_case_row *cases, size_t count, const char *id, uint32_t guess);
+/* One row of the table each, in its order, and the place of each id. FM_INVALID, naming file, line
+ * and column: another schema; a column is missing, or is unknown and stands before known ones
+ * (those of newer programs stand behind them); a number is none, or out of range: times and amounts
+ * are finite and not negative, shares at most 1, ends of an interval in order; a status, id or
+ * method cannot be; two rows are of one case. FM_NO_MEMORY. The caller frees *cases and the index,
+ * after a failure too. */
+fm_status cases_read(fm_case_row **cases, fm_text_index *ids, const fm_table *table,
+                     const fm_provenance *manifest, fm_error *err);
 
 /* The number column of that name; false: there is none. */
 bool case_number(double *value, const fm_case_row *result, const char *name);

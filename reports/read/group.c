@@ -28,15 +28,16 @@ void group_series_title(char title[96], const fm_case_row *result, const fm_text
 
 bool group_uses_k(const fm_group *group, const fm_case_row *result)
 {
-    bool alone = true, several = false;
+    bool several = false;
     if (isnan(result->k))
         return false;
     for (size_t i = 0; i < group->count; i++) {
         const fm_case_row *other = group->cases[i];
         several |= !isnan(other->k) && other->k != result->k;
-        alone &= other == result || !group_same_series(other, result);
+        if (other != result && group_same_series(other, result))
+            return true;
     }
-    return !(alone && several);
+    return !several;
 }
 
 /* The usual one first, then counters=2 before counters=10. */
@@ -126,7 +127,7 @@ static void describe(fm_group *group, const fm_text_list *free_columns)
 }
 
 /* Letters, digits and hyphens of scene, device and feed, and a number when that is not unique. */
-static void name_group(fm_groups *groups, size_t index)
+static bool name_group(fm_groups *groups, size_t index, fm_text_index *names)
 {
     fm_group *group = &groups->groups[index];
     const fm_case_row *one = group->cases[0];
@@ -134,43 +135,89 @@ static void name_group(fm_groups *groups, size_t index)
     snprintf(text, sizeof text, "%.50s-%.40s-%.24s", one->scene, one->device, one->feed);
     for (char *at = text; *at != '\0'; at++)
         *at = isalnum((unsigned char)*at) ? *at : '-';
-    size_t number = 1;
     snprintf(group->name, sizeof group->name, "%.120s", text);
-    for (size_t i = 0; i < index; i++)
-        if (strcmp(groups->groups[i].name, group->name) == 0) {
-            snprintf(group->name, sizeof group->name, "%.100s-%zu", text, ++number);
-            i = (size_t)-1; /* look again with the new name */
-        }
+    size_t owner = text_index_add(names, group->name, index);
+    if (owner == FM_TEXT_INDEX_NONE)
+        return false;
+    fm_group *first = &groups->groups[owner];
+    while (owner != index) {
+        snprintf(group->name, sizeof group->name, "%.100s-%zu", text, ++first->same_names + 1);
+        owner = text_index_add(names, group->name, index);
+        if (owner == FM_TEXT_INDEX_NONE)
+            return false;
+    }
+    return true;
 }
 
-static fm_group *find_group(fm_groups *groups, const fm_case_row *result, size_t case_limit,
-                            const fm_text_list *free_columns)
+/* What collecting needs: the first group of each key. */
+typedef struct collection {
+    fm_groups *groups;
+    fm_text_index keys;
+    const fm_text_list *free_columns;
+} collection;
+
+static fm_group *add_group(fm_groups *groups)
 {
-    for (size_t i = 0; i < groups->count; i++)
-        if (workload_same(groups->groups[i].cases[0], result, free_columns))
-            return &groups->groups[i];
     fm_group *grown = reallocarray(groups->groups, groups->count + 1, sizeof *grown);
     if (grown == NULL)
         return NULL;
     groups->groups = grown;
-    grown[groups->count] = (fm_group){ .cases = calloc(case_limit, sizeof(void *)) };
-    return grown[groups->count].cases == NULL ? NULL : &grown[groups->count++];
+    grown[groups->count] = (fm_group){ .next_alike = SIZE_MAX };
+    return &grown[groups->count++];
+}
+
+/* The group of the case; a new one, if none is. Groups of another key cannot be. NULL: no memory.
+ */
+static fm_group *find_group(collection *into, const fm_case_row *result)
+{
+    char key[WORKLOAD_KEY_BYTES];
+    fm_groups *groups = into->groups;
+    workload_key(key, result, into->free_columns);
+    const size_t first = text_index_add(&into->keys, key, groups->count);
+    if (first == FM_TEXT_INDEX_NONE)
+        return NULL;
+    size_t last = SIZE_MAX;
+    for (size_t i = first; i < groups->count; i = groups->groups[i].next_alike) {
+        if (workload_same(groups->groups[i].cases[0], result, into->free_columns))
+            return &groups->groups[i];
+        last = i;
+    }
+    fm_group *added = add_group(groups);
+    if (added != NULL && last != SIZE_MAX)
+        groups->groups[last].next_alike = groups->count - 1;
+    return added;
+}
+
+static bool add_case(fm_group *group, const fm_case_row *result)
+{
+    if (group->count == group->room) {
+        const size_t room = group->room > 0 ? 2 * group->room : 8;
+        const fm_case_row **grown = reallocarray(
+            group->cases, room, sizeof *grown); /* NOLINT(bugprone-sizeof-expression) */
+        if (grown == NULL)
+            return false;
+        group->cases = grown;
+        group->room = room;
+    }
+    group->cases[group->count++] = result;
+    return true;
 }
 
 /* Each case into the group that it may stand in; false: no memory. */
 static bool collect(fm_groups *groups, const fm_result_files *results, const fm_groups_desc *desc,
                     const fm_text_list *free_columns)
 {
-    for (size_t i = 0; i < results->count; i++) {
+    collection into = { .groups = groups, .free_columns = free_columns };
+    bool is_done = true;
+    for (size_t i = 0; i < results->count && is_done; i++) {
         const fm_case_row *result = &results->cases[i];
         if (desc->filter != NULL && !desc->filter(result, desc->context))
             continue;
-        fm_group *group = find_group(groups, result, results->count, free_columns);
-        if (group == NULL)
-            return false;
-        group->cases[group->count++] = result;
+        fm_group *group = find_group(&into, result);
+        is_done = group != NULL && add_case(group, result);
     }
-    return true;
+    text_index_free(&into.keys);
+    return is_done;
 }
 
 fm_status groups_make(fm_groups *groups, const fm_result_files *results, const fm_groups_desc *desc,
@@ -178,6 +225,7 @@ fm_status groups_make(fm_groups *groups, const fm_result_files *results, const f
 {
     fm_status status = FM_OK;
     fm_text_list free_columns = { 0 };
+    fm_text_index names = { 0 };
     *groups = (fm_groups){ 0 };
     if (!text_list_add_all(&free_columns, desc->free_columns) ||
         !text_list_add(&free_columns, "k") || !collect(groups, results, desc, &free_columns)) {
@@ -189,8 +237,12 @@ fm_status groups_make(fm_groups *groups, const fm_result_files *results, const f
         /* NOLINTNEXTLINE(bugprone-sizeof-expression): pointers are what is sorted */
         qsort(group->cases, group->count, sizeof group->cases[0], compare_cases);
         describe(group, &free_columns);
-        name_group(groups, i);
+        if (!name_group(groups, i, &names)) {
+            status = fm_fail(err, FM_NO_MEMORY, "%zu groups of cases", groups->count);
+            groups_free(groups);
+        }
     }
+    text_index_free(&names);
     text_list_free(&free_columns);
     return status;
 }

@@ -8,7 +8,9 @@
 
 typedef struct fm_group {
     const fm_case_row **cases; /* by family, method, options, k; controls last; owned */
-    size_t count;
+    size_t count, room;
+    size_t next_alike;  /* the next group whose key is the same (workload_key); SIZE_MAX: none */
+    size_t same_names;  /* groups behind it whose texts make the same name */
     char name[128];     /* of the group in file names: "layers-vulkan-raster", unique in a list */
     char title[192];    /* "layers, vulkan: llvmpipe, raster" */
     char workload[200]; /* "854 x 480 pixels, n = 128, pixel density 0.25, ..." */

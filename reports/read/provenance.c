@@ -8,7 +8,7 @@
 #include "base/text.h"
 #include "model/family.h"
 
-enum { MANIFEST_BYTES = 16 << 20 };
+enum { MANIFEST_BYTES = 256 << 20, MANIFEST_SCHEMA = 1 };
 
 /* A text field; absent or of another type: "". */
 static const char *field(const json_t *object, const char *name)
@@ -99,6 +99,8 @@ static fm_status read_figures(fm_provenance *manifest, const char *path, const j
 {
     if (figures == NULL)
         return FM_OK;
+    if (!json_is_array(figures))
+        return fm_fail(err, FM_INVALID, "%s: figures: not a list", path);
     const char **ids = calloc(json_array_size(figures) + 1, sizeof *ids);
     if (ids == NULL)
         return fm_fail(err, FM_NO_MEMORY, "%s: figures", path);
@@ -164,7 +166,13 @@ static fm_status read_root(fm_provenance *manifest, const char *path, fm_error *
         return fm_fail(err, FM_INVALID, "%s:%d: %s", path, problem.line, problem.text);
     if (!json_is_object(root))
         return fm_fail(err, FM_INVALID, "%s:1: not a JSON object", path);
-    return FM_OK;
+    const json_t *schema = json_object_get(root, "schema");
+    if (schema == NULL || json_integer_value(schema) == MANIFEST_SCHEMA)
+        return FM_OK;
+    char text[512] = "";
+    scalar_text(text, schema);
+    return fm_fail(err, FM_INVALID, "%s: schema: \"%.40s\"; this program reads schema %d", path,
+                   text, MANIFEST_SCHEMA);
 }
 
 fm_status provenance_read(fm_provenance **manifest, const char *path, fm_error *err)

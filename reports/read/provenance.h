@@ -1,7 +1,8 @@
 /* manifest.json: what ran, where, and how methods look.
  *
- * Missing fields are "" or false, unknown ones are ignored: manifests of older and newer versions
- * are read. A file that is not a JSON object, or whose parts have the wrong shape, is damaged. */
+ * Missing fields are "" or false, unknown ones are ignored: manifests of older versions, and of
+ * newer ones with the same schema, are read. A file that is not a JSON object, or whose parts have
+ * the wrong shape, is damaged. */
 #ifndef FM_PROVENANCE_H
 #define FM_PROVENANCE_H
 

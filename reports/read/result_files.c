@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "base/path.h"
+#include "missing.h"
 
 static fm_status read_table(fm_table **table, const char *directory, const char *name,
                             fm_error *err)
@@ -56,9 +57,8 @@ static fm_status read_figures(fm_result_files *results, fm_error *err)
     for (size_t row = 0; status == FM_OK && row < results->figures->row_count; row++) {
         const char *name = table_cell(results->figures, row, figure);
         status = know_figure(results, name, row, err);
-        const uint32_t found = cases_find(results->cases, results->count,
-                                          table_cell(results->figures, row, id), (uint32_t)row);
-        if (found != UINT32_MAX)
+        const size_t found = text_index_find(&results->ids, table_cell(results->figures, row, id));
+        if (found != FM_TEXT_INDEX_NONE)
             results->cases[found].figures |= result_files_figure(results, name);
     }
     return status;
@@ -90,14 +90,16 @@ fm_status result_files_read(fm_result_files **results, const char *directory, fm
     if (status == FM_OK)
         status = read_table(&made->summary, directory, "summary.csv", err);
     if (status == FM_OK)
-        status = read_table(&made->sample_table, directory, "samples.csv", err);
+        status = read_optional(&made->sample_table, directory, "samples.csv", err);
     if (status == FM_OK)
-        status = cases_read(&made->cases, made->summary, made->manifest, err);
+        status = cases_read(&made->cases, &made->ids, made->summary, made->manifest, err);
     if (status == FM_OK) {
         made->count = made->summary->row_count;
-        status =
-            sample_rows_read(&made->samples, made->sample_table, made->cases, made->count, err);
+        const fm_case_list list = { made->cases, made->count, &made->ids };
+        status = sample_rows_read(&made->samples, made->sample_table, &list, err);
     }
+    if (status == FM_OK)
+        status = missing_find(&made->missing, made, err);
     if (status == FM_OK)
         status = read_figures(made, err);
     if (status == FM_OK)
@@ -115,6 +117,8 @@ void result_files_close(fm_result_files *results)
     if (results == NULL)
         return;
     sample_rows_free(&results->samples);
+    text_list_free(&results->missing);
+    text_index_free(&results->ids);
     free(results->cases);
     table_close(results->memory);
     table_close(results->figures);

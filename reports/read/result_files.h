@@ -14,6 +14,7 @@
 #include <stdint.h>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "provenance.h"
 #include "samples.h"
 #include "table.h"
@@ -25,20 +26,23 @@ typedef struct fm_result_files {
     const char *directory; /* borrowed: it must live as long */
     fm_provenance *manifest;
     fm_table *summary;      /* summary.csv */
-    fm_table *sample_table; /* samples.csv */
+    fm_table *sample_table; /* samples.csv; NULL: there is none, which `missing` says */
     fm_table *figures;      /* figures.csv: which figure a case is for; NULL: there is none */
     fm_table *memory;       /* memory.csv: tables of memory by formula; NULL: there is none */
     const char *figure_names[FM_RESULT_FIGURES]; /* [figure_count], as figures.csv has them */
     size_t figure_count;
     fm_case_row *cases; /* [count]: the rows of summary.csv, in its order */
+    fm_text_index ids;  /* of the cases */
     size_t count;
     fm_sample_rows samples;
+    fm_text_list missing; /* sentences: what a run should have left and did not, or what is damaged
+                             that results can do without */
 } fm_result_files;
 
-/* Reads DIRECTORY/manifest.json, summary.csv and samples.csv, which must be there, and figures.csv
- * and memory.csv where they are. FM_IO: a file cannot be read. FM_INVALID: damaged, naming file and
- * line; a path that is too long; more than FM_RESULT_FIGURES figures. FM_NO_MEMORY. On failure
- * *results is NULL. The caller closes it. */
+/* Reads DIRECTORY/manifest.json and summary.csv, which must be there, and samples.csv, figures.csv
+ * and memory.csv where they are. A journal is looked at, not read. FM_IO: a file cannot be read.
+ * FM_INVALID: damaged, naming file and line; a path that is too long; more than FM_RESULT_FIGURES
+ * figures. FM_NO_MEMORY. On failure *results is NULL. The caller closes it. */
 fm_status result_files_read(fm_result_files **results, const char *directory, fm_error *err);
 /* Takes NULL too. */
 void result_files_close(fm_result_files *results);

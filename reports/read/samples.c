@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/text.h"
+
 /* Which column is what; the metric's is kept. */
 typedef struct sample_columns {
     size_t id, launch, frame, value;
@@ -69,25 +71,54 @@ static fm_status leave_out_off_clock(fm_sample_rows *samples, fm_error *err)
     return FM_OK;
 }
 
-/* Launch and frame as one number; empty cells: the case as a whole. */
+/* A launch or a frame; *number is UINT64_MAX where the cell is empty. */
+static fm_status read_whole(uint64_t *number, const fm_table *table, size_t row, size_t column,
+                            fm_error *err)
+{
+    const char *text = table_cell(table, row, column);
+    *number = UINT64_MAX;
+    if (text[0] == '\0' || (text_to_u64(number, text) && *number < UINT32_MAX))
+        return FM_OK;
+    return fm_fail(err, FM_INVALID, "%s:%u: %s: \"%.80s\" is not a whole number", table->path,
+                   table->lines[row], table->names[column], text);
+}
+
+/* Launch and frame as one number; empty cells: the case, or the launch, as a whole. */
 static fm_status read_frame(uint64_t *frame, const fm_table *table, size_t row,
                             const sample_columns *columns, fm_error *err)
 {
-    double of_launch, of_frame;
-    fm_status status = table_number(&of_launch, table, row, columns->launch, err);
+    uint64_t of_launch, of_frame;
+    fm_status status = read_whole(&of_launch, table, row, columns->launch, err);
     if (status == FM_OK)
-        status = table_number(&of_frame, table, row, columns->frame, err);
-    if (status != FM_OK)
-        return status;
-    const bool is_frame = of_launch >= 0.0 && of_launch < 1e6 && of_frame >= 0.0 && of_frame < 1e9;
-    *frame = is_frame ? (uint64_t)of_launch << 32 | (uint64_t)of_frame : FM_SAMPLE_OF_CASE;
-    return FM_OK;
+        status = read_whole(&of_frame, table, row, columns->frame, err);
+    if (status == FM_OK && of_launch == UINT64_MAX && of_frame != UINT64_MAX)
+        status = fm_fail(err, FM_INVALID, "%s:%u: launch: frame %llu is of none", table->path,
+                         table->lines[row], (unsigned long long)of_frame);
+    *frame = of_frame != UINT64_MAX ? of_launch << 32 | of_frame : FM_SAMPLE_OF_CASE;
+    return status;
+}
+
+/* Times are amounts; other metrics may be below zero, or infinite decibels. */
+static fm_status read_value(double *value, const fm_sample_rows *samples, size_t row, size_t column,
+                            fm_error *err)
+{
+    const fm_table *table = samples->table;
+    const char *metric = table_cell(table, row, samples->metric_column);
+    const char *ending = strrchr(metric, '_');
+    if (metric[0] == '\0')
+        return fm_fail(err, FM_INVALID, "%s:%u: metric: the row has none", table->path,
+                       table->lines[row]);
+    if (ending != NULL && (strcmp(ending, "_ms") == 0 || strcmp(ending, "_ns") == 0))
+        return table_amount(value, table, row, column, err);
+    return table_number(value, table, row, column, err);
 }
 
 static fm_status find_columns(sample_columns *columns, fm_sample_rows *samples, fm_error *err)
 {
     const fm_table *table = samples->table;
-    fm_status status = table_need_column(&columns->id, table, "case_id", err);
+    fm_status status = table_check_schema(table, FM_SUMMARY_SCHEMA, err);
+    if (status == FM_OK)
+        status = table_need_column(&columns->id, table, "case_id", err);
     if (status == FM_OK)
         status = table_need_column(&columns->launch, table, "launch", err);
     if (status == FM_OK)
@@ -110,44 +141,57 @@ static fm_status reserve(fm_sample_rows *samples, fm_error *err)
     return FM_OK;
 }
 
-static fm_status read_rows(fm_sample_rows *samples, fm_case_row *cases, size_t case_count,
+/* The index of the case of that id. guess: where to look first, for rows of a case follow one
+ * another. UINT32_MAX: none, such as a case of a stopped run that has no row yet. */
+static uint32_t find_case(const fm_case_list *of, const char *id, uint32_t guess)
+{
+    if (guess < of->count && strcmp(of->cases[guess].id, id) == 0)
+        return guess;
+    const size_t found = text_index_find(of->ids, id);
+    return found != FM_TEXT_INDEX_NONE ? (uint32_t)found : UINT32_MAX;
+}
+
+static fm_status read_rows(fm_sample_rows *samples, const fm_case_list *of,
                            const sample_columns *columns, fm_error *err)
 {
     const fm_table *table = samples->table;
     uint32_t last = 0;
     for (size_t row = 0; row < table->row_count; row++) {
-        fm_status status = table_number(&samples->value[row], table, row, columns->value, err);
+        fm_status status = read_value(&samples->value[row], samples, row, columns->value, err);
         if (status == FM_OK)
             status = read_frame(&samples->frame[row], table, row, columns, err);
         if (status != FM_OK)
             return status;
-        const uint32_t found =
-            cases_find(cases, case_count, table_cell(table, row, columns->id), last);
+        const uint32_t found = find_case(of, table_cell(table, row, columns->id), last);
         samples->case_index[row] = found;
         if (found == UINT32_MAX)
             continue;
         last = found;
         if (table_cell(table, row, columns->launch)[0] == '\0' &&
             is_named(samples, row, FM_METRIC_TOTAL_RMSE))
-            cases[found].metric[FM_METRIC_TOTAL_RMSE] = samples->value[row];
+            of->cases[found].metric[FM_METRIC_TOTAL_RMSE] = samples->value[row];
     }
     return FM_OK;
 }
 
-fm_status sample_rows_read(fm_sample_rows *samples, const fm_table *table, fm_case_row *cases,
-                           size_t case_count, fm_error *err)
+fm_status sample_rows_read(fm_sample_rows *samples, const fm_table *table, const fm_case_list *of,
+                           fm_error *err)
 {
     sample_columns columns;
     *samples = (fm_sample_rows){ .table = table };
+    if (table == NULL) {
+        samples->first = calloc(of->count + 2, sizeof *samples->first);
+        return samples->first != NULL ? FM_OK : fm_fail(err, FM_NO_MEMORY, "%zu cases", of->count);
+    }
     fm_status status = find_columns(&columns, samples, err);
     if (status == FM_OK)
         status = reserve(samples, err);
     if (status == FM_OK)
-        status = read_rows(samples, cases, case_count, &columns, err);
+        status = read_rows(samples, of, &columns, err);
     if (status == FM_OK)
         status = leave_out_off_clock(samples, err);
     if (status == FM_OK)
-        status = index_by_case(samples, case_count, err);
+        status = index_by_case(samples, of->count, err);
     return status;
 }
 

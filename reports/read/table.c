@@ -212,6 +212,29 @@ fm_status table_number(double *value, const fm_table *table, size_t row, size_t 
     return FM_OK;
 }
 
+fm_status table_amount(double *value, const fm_table *table, size_t row, size_t column,
+                       fm_error *err)
+{
+    const fm_status status = table_number(value, table, row, column, err);
+    const char *text = table_cell(table, row, column);
+    if (status != FM_OK || text[0] == '\0' || (isfinite(*value) && *value >= 0.0))
+        return status;
+    return fm_fail(err, FM_INVALID, "%s:%u: %s: \"%.80s\": a finite number from 0 on is expected",
+                   table->path, table->lines[row], table->names[column], text);
+}
+
+fm_status table_check_schema(const fm_table *table, const char *known, fm_error *err)
+{
+    size_t column;
+    fm_status status = table_need_column(&column, table, "schema", err);
+    for (size_t row = 0; row < table->row_count && status == FM_OK; row++)
+        if (strcmp(table_cell(table, row, column), known) != 0)
+            status =
+                fm_fail(err, FM_INVALID, "%s:%u: schema: \"%.40s\"; this program reads schema %s",
+                        table->path, table->lines[row], table_cell(table, row, column), known);
+    return status;
+}
+
 fm_status table_need_column(size_t *column, const fm_table *table, const char *name, fm_error *err)
 {
     *column = table_column(table, name);

@@ -38,4 +38,11 @@ const char *table_cell(const fm_table *table, size_t row, size_t column); /* no 
 fm_status table_number(double *value, const fm_table *table, size_t row, size_t column,
                        fm_error *err);
 
+/* The same; FM_INVALID also for "nan", infinities, and what is below zero. */
+fm_status table_amount(double *value, const fm_table *table, size_t row, size_t column,
+                       fm_error *err);
+/* The schema of the rows, which a column `schema` tells: each must have the one that is known.
+ * FM_INVALID, naming file, line and both. A file without that column is none of a run's. */
+fm_status table_check_schema(const fm_table *table, const char *known, fm_error *err);
+
 #endif

@@ -74,6 +74,26 @@ bool workload_same(const fm_case_row *a, const fm_case_row *b, const fm_text_lis
            options_are_same(a->options, b->options, FM_OPTIONS_OF_SCENE, free_columns);
 }
 
+void workload_key(char key[WORKLOAD_KEY_BYTES], const fm_case_row *result,
+                  const fm_text_list *free_columns)
+{
+    size_t used = 0;
+    key[0] = '\0';
+    for (size_t i = 0; i < WORKLOAD_COLUMNS && used < WORKLOAD_KEY_BYTES; i++) {
+        if (workload_columns[i].may_be_empty ||
+            is_free(free_columns, workload_columns[i].name, result))
+            continue;
+        if (workload_columns[i].is_text)
+            used +=
+                (size_t)snprintf(key + used, WORKLOAD_KEY_BYTES - used, "|%s", text_of(result, i));
+        else if (isnan(number_of(result, i)))
+            used += (size_t)snprintf(key + used, WORKLOAD_KEY_BYTES - used, "|");
+        else /* -0 equals 0 */
+            used += (size_t)snprintf(key + used, WORKLOAD_KEY_BYTES - used, "|%.17g",
+                                     number_of(result, i) + 0.0);
+    }
+}
+
 void workload_name(char *name, size_t room, const fm_result_files *results, const bool *takes,
                    const fm_case_row *result)
 {

@@ -9,6 +9,12 @@
  * or n agrees with any; where n = r k, n is free with k. */
 bool workload_same(const fm_case_row *a, const fm_case_row *b, const fm_text_list *free_columns);
 
+enum { WORKLOAD_KEY_BYTES = 1024 };
+/* Cases of different keys are not of the same workload; those of one key may be. What does not fit
+ * is left out. */
+void workload_key(char key[WORKLOAD_KEY_BYTES], const fm_case_row *result,
+                  const fm_text_list *free_columns);
+
 /* ", n 128, k 8": of the case, the columns in which the cases differ that takes[results->count]
  * marks; NULL: nothing. What does not fit is left out. */
 void workload_name(char *name, size_t room, const fm_result_files *results, const bool *takes,

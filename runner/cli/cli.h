@@ -14,24 +14,26 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "device/registry.h"
+#include "model/exit_code.h"
 #include "plan/plan.h"
 
 enum {
-    CLI_DONE = 0,
-    CLI_CLAIM_FAILS = 1, /* a claim that its figure declares required */
-    CLI_USAGE = 2,       /* usage or spec error: nothing was run */
-    CLI_NOTHING = 3,     /* nothing could be measured */
-    CLI_SOME_FAILED = 4, /* crash, timeout, out of memory, refused plugin, wrong image */
-    CLI_INCOMPLETE = 5,  /* the run's own files failed, a full disk say: it can be continued */
-    CLI_OTHER_CODE = 7,  /* rows were begun with other code than is here now */
-    CLI_DAMAGED = 8,     /* a damaged or foreign file */
-    CLI_SIGNAL = 128,    /* + its number: interrupted, can be continued */
+    CLI_DONE = FM_EXIT_DONE, /* model/exit_code.h says what each means */
+    CLI_CLAIM_FAILS = FM_EXIT_CLAIM_FAILS,
+    CLI_USAGE = FM_EXIT_USAGE,
+    CLI_NOTHING = FM_EXIT_NOTHING,
+    CLI_SOME_FAILED = FM_EXIT_SOME_FAILED,
+    CLI_INCOMPLETE = FM_EXIT_INCOMPLETE,
+    CLI_OTHER_CODE = FM_EXIT_OTHER_CODE,
+    CLI_DAMAGED = FM_EXIT_DAMAGED,
+    CLI_SIGNAL = 128, /* + its number: interrupted, can be continued */
 };
 #define CLI_EXIT_CODES                                                                             \
     "Exit codes: 0 done; 1 a claim that its figure declares required fails; 2 usage or spec "      \
     "error, nothing was run; 3 nothing could be measured; "                                        \
     "4 some cases failed (crash, timeout, out of memory, refused plugin, wrong image of an exact " \
-    "method); 5 incomplete: the run's own files failed, and the same command continues it; "       \
+    "method); 5 incomplete: the run's own files failed, and the same command continues it, or "    \
+    "the report cannot be drawn, or lacks something; "                                             \
     "7 other code (program, driver, plugin or shaders) than rows were begun with; "                \
     "8 damaged or foreign file; 130, 143 interrupted: the same command continues it."
 

@@ -30,7 +30,7 @@ static const struct argp argp = {
     .doc =
         "Lists the cases that `fragmark run` with the same arguments would measure, and how long "
         "that may take. Measures nothing, but reads the meshes and says what is in them (-q: does "
-        "not)."
+        "not). Exit code 3: no case can run; 4: a mesh cannot be read, or a plugin is refused."
         "\v"
         "Examples:\n"
         "  fragmark plan --method kb,kplus-array -a k=4:16:*2\n"
@@ -142,26 +142,71 @@ static json_t *case_json(const fm_case *planned)
                      planned->skip != NULL ? case_status_name(planned->skip_status) : NULL);
 }
 
+/* Writes and drops it; false: no memory, or not written. */
+static bool write_object(FILE *out, json_t *object, size_t flags)
+{
+    const bool is_written = object != NULL && json_dumpf(object, out, flags) == 0;
+    json_decref(object);
+    return is_written;
+}
+
+/* Case by case: all of a large plan as one tree takes gigabytes. */
 static int write_json(const fm_cli *cli, const fm_plan *plan)
 {
-    json_t *cases = json_array();
-    for (size_t i = 0; i < plan->count; i++)
-        json_array_append_new(cases, case_json(&plan->cases[i]));
-    return cli_print_json(cli, json_pack("{s:i, s:I, s:i, s:i, s:i, s:f, s:o}", "schema", 1, "seed",
-                                         (json_int_t)plan->seed, "launches", (int)plan->launches,
-                                         "frames", (int)plan->frames, "warmup", (int)plan->warmup,
-                                         "estimated_s", plan_seconds(plan), "cases", cases));
+    bool is_written =
+        fputs("{\n", cli->out) != EOF &&
+        write_object(cli->out,
+                     json_pack("{s:i, s:I, s:i, s:i, s:i, s:f}", "schema", 1, "seed",
+                               (json_int_t)plan->seed, "launches", (int)plan->launches, "frames",
+                               (int)plan->frames, "warmup", (int)plan->warmup, "estimated_s",
+                               plan_seconds(plan)),
+                     JSON_EMBED) &&
+        fputs(",\n\"cases\": [", cli->out) != EOF;
+    for (size_t i = 0; i < plan->count && is_written; i++)
+        is_written = fputs(i > 0 ? ",\n" : "\n", cli->out) != EOF &&
+                     write_object(cli->out, case_json(&plan->cases[i]), JSON_INDENT(2));
+    is_written = is_written && fputs("\n]}\n", cli->out) != EOF;
+    if (!is_written)
+        fprintf(cli->talk, "fragmark: the JSON cannot be written\n");
+    return is_written ? CLI_DONE : CLI_NOTHING;
+}
+
+static bool is_unread(const fm_case *planned, const fm_text_index *unread)
+{
+    const char *file = settings_file(&planned->settings);
+    return planned->is_unread ||
+           (file != NULL && text_index_find(unread, file) != FM_TEXT_INDEX_NONE);
+}
+
+/* As a run of the plan would end. */
+static int plan_code(const fm_plan *plan, const fm_text_index *unread)
+{
+    size_t failed = 0, runnable = 0;
+    for (size_t i = 0; i < plan->count; i++) {
+        const fm_case *planned = &plan->cases[i];
+        const bool is_refused =
+            planned->skip != NULL && planned->skip_status == FM_CASE_PLUGIN_ERROR;
+        failed += is_refused || is_unread(planned, unread);
+        runnable += planned->skip == NULL && !is_unread(planned, unread);
+    }
+    if (runnable == 0 && plan->count > 0)
+        return CLI_NOTHING;
+    return failed > 0 ? CLI_SOME_FAILED : CLI_DONE;
 }
 
 static int write_plan(const fm_arguments *arguments, const fm_plan *plan)
 {
     const fm_cli *cli = arguments->cli;
     fm_error err = { 0 };
-    const int code = arguments->json ? write_json(cli, plan) : write_table(cli, plan);
+    fm_text_index unread = { 0 };
+    int code = arguments->json ? write_json(cli, plan) : write_table(cli, plan);
     fflush(cli->out); /* the cases before what is said of their meshes */
-    if (arguments->quiet || mesh_look(cli->talk, plan, NULL, &err) == FM_OK)
-        return code;
-    return cli_fail(cli, &err);
+    if (!arguments->quiet && mesh_look(&unread, cli->talk, plan, NULL, &err) != FM_OK)
+        code = cli_fail(cli, &err);
+    if (code == CLI_DONE)
+        code = plan_code(plan, &unread);
+    text_index_free(&unread);
+    return code;
 }
 
 int cli_plan(const fm_cli *cli, int argc, char **argv)

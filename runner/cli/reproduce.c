@@ -239,12 +239,13 @@ static void keep_specs(const spec_files *specs, const char *directory)
 }
 
 /* Pictures are kept of figures that show them. */
-static void choose_pictures(fm_plan *plan, const fm_plan *of_figure, bool has_pictures)
+static void choose_pictures(fm_plan *plan, const fm_text_index *ids, const fm_plan *of_figure)
 {
-    for (size_t i = 0; has_pictures && i < of_figure->count; i++)
-        for (size_t j = 0; j < plan->count; j++)
-            if (strcmp(plan->cases[j].id, of_figure->cases[i].id) == 0)
-                plan->cases[j].no_image = false;
+    for (size_t i = 0; i < of_figure->count; i++) {
+        const size_t found = text_index_find(ids, of_figure->cases[i].id);
+        if (found != FM_TEXT_INDEX_NONE)
+            plan->cases[found].no_image = false;
+    }
 }
 
 static bool has_pictures(const fm_figure_list *list, const char *id)
@@ -275,7 +276,10 @@ static fm_status assign_cases(fm_plan *plan, const char *directory, const spec_f
                               fm_error *err)
 {
     fm_text csv = { 0 };
-    fm_status status = FM_OK;
+    fm_text_index ids = { 0 };
+    fm_status status = plan_index_ids(&ids, plan)
+                           ? FM_OK
+                           : fm_fail(err, FM_NO_MEMORY, "no memory for %zu cases", plan->count);
     text_add(&csv, "figure,case_id\n");
     for (size_t i = 0; i < plan->count; i++)
         plan->cases[i].no_image = true;
@@ -285,12 +289,14 @@ static fm_status assign_cases(fm_plan *plan, const char *directory, const spec_f
         status = arguments_expand(&of_figure, plugins, arguments, specs->paths.items[i], err);
         for (size_t j = 0; j < of_figure.count && status == FM_OK; j++)
             text_add(&csv, "%s,%s\n", id, of_figure.cases[j].id);
-        choose_pictures(plan, &of_figure, has_pictures(specs->list, id));
+        if (status == FM_OK && has_pictures(specs->list, id))
+            choose_pictures(plan, &ids, &of_figure);
         plan_free(&of_figure);
     }
     if (status == FM_OK)
         status = write_figure_cases(directory, &csv, err);
     text_free(&csv);
+    text_index_free(&ids);
     return status;
 }
 

@@ -122,13 +122,12 @@ static json_t *scenes_json(const fm_results *results)
 {
     json_t *scenes = json_array(), *seen = json_object();
     for (size_t i = 0; i < results->plan->count; i++) {
-        json_t *scene = scene_json(&results->plan->cases[i]);
-        const char *hash = json_string_value(json_object_get(scene, "hash"));
-        if (hash != NULL && json_object_get(seen, hash) == NULL) {
+        char hash[17];
+        settings_scene_hash(hash, &results->plan->cases[i].settings);
+        if (json_object_get(seen, hash) == NULL) {
             json_object_set_new(seen, hash, json_true());
-            json_array_append(scenes, scene);
+            json_array_append_new(scenes, scene_json(&results->plan->cases[i]));
         }
-        json_decref(scene);
     }
     json_decref(seen);
     return scenes;

@@ -11,6 +11,7 @@
 enum { LOOK_TIMEOUT_S = 600 };
 
 typedef struct look {
+    fm_text_index *unread;
     FILE *talk;
     const char *worker;
     fm_stop_signals signals;
@@ -60,6 +61,11 @@ static void tell(FILE *talk, const char *file, const json_t *answer)
         fprintf(talk, "%s: not loaded: %s\n", file, message);
 }
 
+static fm_status no_memory(fm_error *err)
+{
+    return fm_fail(err, FM_NO_MEMORY, "no memory for the names of meshes");
+}
+
 static fm_status look_at(look *state, const fm_case *planned)
 {
     fm_launch_outcome outcome = { 0 };
@@ -82,8 +88,12 @@ static fm_status look_at(look *state, const fm_case *planned)
     if (status == FM_OK)
         status = launch_worker(&outcome, &state->signals, &desc, state->err);
     state->stops = outcome.stop_signal != 0;
-    if (status == FM_OK && !state->stops)
+    if (status == FM_OK && !state->stops) {
         tell(state->talk, planned->settings.mesh, outcome.result);
+        if (answer_mesh(outcome.result) == NULL &&
+            text_index_add(state->unread, planned->settings.mesh, 0) == FM_TEXT_INDEX_NONE)
+            status = no_memory(state->err);
+    }
     json_decref(outcome.result);
     return status;
 }
@@ -91,24 +101,26 @@ static fm_status look_at(look *state, const fm_case *planned)
 /* The first case of each file. */
 static fm_status look_at_all(look *state, const fm_plan *plan)
 {
-    fm_text_list seen = { 0 };
+    fm_text_index seen = { 0 };
     fm_status status = FM_OK;
     for (size_t i = 0; i < plan->count && status == FM_OK && !state->stops; i++) {
         const fm_case *planned = &plan->cases[i];
-        if (!has_mesh(planned) || text_list_has(&seen, planned->settings.mesh))
+        if (!has_mesh(planned))
             continue;
-        if (!text_list_add(&seen, planned->settings.mesh))
-            status = fm_fail(state->err, FM_NO_MEMORY, "no memory for the names of meshes");
-        else
+        const size_t first = text_index_add(&seen, planned->settings.mesh, i);
+        if (first == FM_TEXT_INDEX_NONE)
+            status = no_memory(state->err);
+        else if (first == i)
             status = look_at(state, planned);
     }
-    text_list_free(&seen);
+    text_index_free(&seen);
     return status;
 }
 
-fm_status mesh_look(FILE *talk, const fm_plan *plan, const char *worker, fm_error *err)
+fm_status mesh_look(fm_text_index *unread, FILE *talk, const fm_plan *plan, const char *worker,
+                    fm_error *err)
 {
-    look state = { .talk = talk, .worker = worker, .err = err };
+    look state = { .unread = unread, .talk = talk, .worker = worker, .err = err };
     size_t first = 0;
     while (first < plan->count && !has_mesh(&plan->cases[first]))
         first++;

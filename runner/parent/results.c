@@ -1,6 +1,8 @@
 #include "results.h"
+#include "base/clock.h"
 #include "base/csv.h"
 #include "base/file.h"
+#include "base/text_index.h"
 #include "simulator/counters.h"
 #include "worker/protocol.h"
 
@@ -10,6 +12,10 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+
+/* results_write_summary_if_due says what they are for. */
+enum { SUMMARY_PARTS = 64 };
+static const double summary_pause_s = 2.0, summary_pause_times = 20.0;
 
 static const char samples_header[] = "schema,run_id,case_id,launch,frame,metric,value,unit\n";
 
@@ -42,6 +48,27 @@ static fm_status create_cases(fm_results *results, fm_error *err)
         snprintf(results->cases[i].message, sizeof results->cases[i].message, "%s",
                  planned->skip != NULL ? planned->skip : "the run was stopped before its turn");
     }
+    return FM_OK;
+}
+
+/* Cases of one device follow one another, or take turns with few others. */
+static fm_status number_devices(fm_results *results, fm_error *err)
+{
+    const fm_plan *plan = results->plan;
+    fm_text_index devices = { 0 };
+    size_t count = 0;
+    bool is_done = true;
+    for (size_t i = 0; i < plan->count && is_done; i++) {
+        results->cases[i].device = text_index_add(&devices, plan->cases[i].device, count);
+        is_done = results->cases[i].device != FM_TEXT_INDEX_NONE;
+        count += results->cases[i].device == count;
+    }
+    text_index_free(&devices);
+    results->fastest_canary_ns = calloc(count + 1, sizeof *results->fastest_canary_ns);
+    if (!is_done || results->fastest_canary_ns == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "no memory for %zu devices", count);
+    for (size_t i = 0; i < count; i++)
+        results->fastest_canary_ns[i] = INFINITY;
     return FM_OK;
 }
 
@@ -90,6 +117,8 @@ fm_status results_create(fm_results **results, const fm_plan *plan, const fm_plu
     if (status == FM_OK)
         status = codes_create(&created->codes, plan->count, err);
     if (status == FM_OK)
+        status = number_devices(created, err);
+    if (status == FM_OK)
         status = begin_samples(created, err);
     if (status == FM_OK)
         *results = created;
@@ -115,6 +144,7 @@ void results_destroy(fm_results *results)
     }
     free(results->cases);
     codes_free(&results->codes);
+    free(results->fastest_canary_ns);
     json_decref(results->meshes);
     if (results->samples_fd >= 0) {
         close(results->samples_fd);
@@ -179,12 +209,16 @@ static void add_metric_rows(fm_text *rows, const fm_results *results, const char
     }
 }
 
-static fm_status keep_sample(fm_case_result *result, uint32_t launch,
+static fm_status keep_sample(fm_results *results, size_t case_index, uint32_t launch,
                              const fm_answer_sample *sample, fm_error *err)
 {
     fm_metric metric;
+    fm_case_result *result = &results->cases[case_index];
+    double *fastest = &results->fastest_canary_ns[result->device];
     if (!metric_find(&metric, sample->metric))
         return FM_OK;
+    if (metric == FM_METRIC_CANARY_NS && sample->value > 0.0)
+        *fastest = fmin(*fastest, sample->value);
     if (result->sample_count == result->sample_room) {
         const size_t room = result->sample_room > 0 ? 2 * result->sample_room : 64;
         fm_kept_sample *grown = reallocarray(result->samples, room, sizeof *grown);
@@ -217,7 +251,7 @@ static fm_status keep_launch(fm_text *rows, fm_results *results, size_t case_ind
                                           .value = json_number_value(value) };
         add_sample_row(rows, results, results->plan->cases[case_index].id, launch, &sample);
         if (status == FM_OK)
-            status = keep_sample(&results->cases[case_index], launch, &sample, err);
+            status = keep_sample(results, case_index, launch, &sample, err);
     }
     return status;
 }
@@ -319,7 +353,7 @@ static fm_status keep(fm_results *results, size_t case_index, uint32_t launch, c
     json_array_foreach(answer_samples(answer), index, sample)
     {
         const fm_answer_sample read = answer_sample(sample);
-        const fm_status kept_status = keep_sample(kept, launch, &read, err);
+        const fm_status kept_status = keep_sample(results, case_index, launch, &read, err);
         if (kept_status != FM_OK)
             return kept_status;
     }
@@ -402,7 +436,22 @@ static fm_status write_summary(fm_results *results, bool is_end, fm_error *err)
 
 fm_status results_write_summary(fm_results *results, fm_error *err)
 {
+    results->unwritten = 0;
     return write_summary(results, false, err);
+}
+
+fm_status results_write_summary_if_due(fm_results *results, double now_s, fm_error *err)
+{
+    const double pause_s = fmax(summary_pause_s, summary_pause_times * results->took_s);
+    results->unwritten++;
+    if (results->unwritten * SUMMARY_PARTS < results->plan->count &&
+        now_s - results->written_at_s < pause_s)
+        return FM_OK;
+    const double began_s = clock_s();
+    const fm_status status = results_write_summary(results, err);
+    results->took_s = clock_s() - began_s;
+    results->written_at_s = now_s;
+    return status;
 }
 
 static void add_off_clock_rows(fm_text *rows, bool *is_off_clock, const fm_results *results,

@@ -1,5 +1,5 @@
 /* What was measured so far, and its two tables: samples.csv grows by whole launches, summary.csv is
- * written anew, atomically, whenever a case is finished. */
+ * written anew, atomically, when cases are finished; of large runs not after each of them. */
 #ifndef FM_RESULTS_H
 #define FM_RESULTS_H
 
@@ -42,15 +42,20 @@ typedef struct fm_case_result {
     json_t *modelled; /* the same */
     char device_name[128], device_driver[128], device_api[64];
     bool has_gpu_clock, is_software;
-    char *row; /* of summary.csv, kept until the case changes */
+    char *row;     /* of summary.csv, kept until the case changes */
+    size_t device; /* among fastest_canary_ns */
 } fm_case_result;
 
 typedef struct fm_results {
     const fm_plan *plan;
     const fm_plugin_list *plugins;
-    fm_case_result *cases; /* [plan->count] */
-    fm_codes codes;        /* what the cases were measured by */
-    json_t *meshes;        /* by file: what was loaded, as answers say it */
+    fm_case_result *cases;     /* [plan->count] */
+    fm_codes codes;            /* what the cases were measured by */
+    json_t *meshes;            /* by file: what was loaded, as answers say it */
+    double *fastest_canary_ns; /* of each device of the plan; INFINITY: none so far */
+    /* Of summary.csv: */
+    size_t unwritten; /* cases that were finished since it was written */
+    double written_at_s, took_s;
     char summary_path[FM_PATH_MAX_BYTES], samples_path[FM_PATH_MAX_BYTES];
     char new_path[FM_PATH_MAX_BYTES]; /* samples.csv while a journal is replayed; "": no more */
     char run_id[17];
@@ -78,6 +83,12 @@ bool results_is_finished(const fm_results *results, size_t case_index);
 
 /* Writes summary.csv: a row for each case that was launched or is not to be. */
 fm_status results_write_summary(fm_results *results, fm_error *err);
+
+/* For a case that was just finished: writes summary.csv, but leaves it as it is, for the next call
+ * or the end of the run, where less than 1/64 of the cases were finished since it was written and
+ * less than 2 s, or 20 times as long as writing took, have gone by. So all writing together stays
+ * in proportion to the cases, and the journal has what the file lacks. now_s: of clock_s. */
+fm_status results_write_summary_if_due(fm_results *results, double now_s, fm_error *err);
 
 /* Once, at the end of a run. Slow clocks are known only now: samples off full clock are marked in
  * samples.csv, by a row with metric off_clock for their launch and frame, and all rows of

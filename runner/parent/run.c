@@ -51,10 +51,10 @@ static fm_status run_round(run_state *run, uint32_t launch, fm_error *err)
 
 static bool truth_is_wanted(const run_state *run, size_t job)
 {
-    for (size_t i = 0; i < run->plan->count; i++)
-        if (run->truths.of_case[i] == job && run_is_pending(run, i))
-            return true;
-    return false;
+    size_t i = run->truths.jobs[job].of;
+    while (i != FM_NO_CASE && !run_is_pending(run, i))
+        i = run->truths.next_of_same[i];
+    return i != FM_NO_CASE;
 }
 
 static void count_launches(run_state *run)
@@ -129,6 +129,8 @@ static fm_status write_manifest(const run_state *run, bool is_ended, fm_error *e
 static fm_status prepare(run_state *run, fm_error *err)
 {
     fm_status status = truth_jobs_create(&run->truths, run->plan, run->plugins, err);
+    if (status == FM_OK && !plan_index_ids(&run->ids, run->plan))
+        status = fm_fail(err, FM_NO_MEMORY, "no memory for %zu cases", run->plan->count);
     if (status == FM_OK)
         status = run_make_folders(run, err);
     if (status == FM_OK)
@@ -158,6 +160,8 @@ fm_status run_cases(fm_run_result *result, const fm_plan *plan, const fm_plugin_
         status = prepare(&run, err);
     if (status == FM_OK)
         status = run_launches(&run, err);
+    if (status != FM_OK && run.results != NULL && !run.is_damaged)
+        results_write_summary(run.results, NULL); /* what the last one lacks; nobody asks how */
     if (hears_signals)
         stop_signals_close(&run.signals);
     if (status == FM_OK)
@@ -178,6 +182,7 @@ fm_status run_cases(fm_run_result *result, const fm_plan *plan, const fm_plugin_
     codes_free(&run.codes);
     json_decref(run.drivers);
     truth_jobs_free(&run.truths);
+    text_index_free(&run.ids);
     free(run.order);
     return status;
 }

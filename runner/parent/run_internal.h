@@ -23,6 +23,7 @@ typedef struct run_state {
     fm_journal *journal;
     fm_results *results;
     fm_truth_jobs truths;
+    fm_text_index ids; /* of the plan's cases */
     fm_stop_signals signals;
     fm_codes codes;   /* of the journal, as it was found; forgets of what it is to forget */
     json_t *drivers;  /* by device as cases name it: hash of its driver now, for those that were

@@ -25,11 +25,9 @@ static void plan_hash(char hash[17], const fm_plan *plan, const fm_run_desc *des
 fm_status run_find_case(size_t *case_index, const run_state *run, const char *id, uint32_t launch,
                         fm_error *err)
 {
-    size_t i = 0;
-    while (i < run->plan->count && strcmp(run->plan->cases[i].id, id) != 0)
-        i++;
+    const size_t i = text_index_find(&run->ids, id);
     *case_index = i;
-    return i == run->plan->count || launch >= plan_case_launches(run->plan, i)
+    return i == FM_TEXT_INDEX_NONE || launch >= plan_case_launches(run->plan, i)
                ? fm_fail(err, FM_INVALID, "case %.32s, launch %u is not of this plan", id, launch)
                : FM_OK;
 }

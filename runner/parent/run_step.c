@@ -3,6 +3,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/clock.h"
 #include "run_internal.h"
 #include "worker/protocol.h"
 
@@ -22,7 +23,7 @@ fm_status run_end_launch(run_state *run, size_t case_index, uint32_t launch, jso
     if (status == FM_OK)
         status = results_add(run->results, case_index, launch, result, err);
     if (status == FM_OK && results_is_finished(run->results, case_index))
-        status = results_write_summary(run->results, err);
+        status = results_write_summary_if_due(run->results, clock_s(), err);
     return status;
 }
 
@@ -38,8 +39,9 @@ static fm_status fail_truth(run_state *run, size_t job, const json_t *result, fm
     fm_status status = FM_OK;
     char message[2048];
     snprintf(message, sizeof message, "no truth: %.2000s", answer_message(result));
-    for (size_t i = 0; i < run->plan->count && status == FM_OK; i++) {
-        if (run->truths.of_case[i] != job || !run_is_pending(run, i))
+    for (size_t i = run->truths.jobs[job].of; i != FM_NO_CASE && status == FM_OK;
+         i = run->truths.next_of_same[i]) {
+        if (!run_is_pending(run, i))
             continue;
         uint32_t launch = 0;
         while (run->results->cases[i].launches[launch].is_done)

@@ -329,30 +329,13 @@ void summary_header(fm_text *text)
         text_add(text, "%s%s", column_name(&fm_columns[i]), i + 1 < FM_COLUMN_COUNT ? "," : "\n");
 }
 
-/* The fastest canary of the run on this device; INFINITY when there is none. */
-static double fastest_canary(const fm_results *results, const char *device)
-{
-    double fastest = INFINITY;
-    for (size_t i = 0; i < results->plan->count; i++) {
-        if (strcmp(results->plan->cases[i].device, device) != 0)
-            continue;
-        for (size_t j = 0; j < results->cases[i].sample_count; j++) {
-            const fm_kept_sample *sample = &results->cases[i].samples[j];
-            if (sample->metric == FM_METRIC_CANARY_NS && sample->value > 0.0)
-                fastest = fmin(fastest, sample->value);
-        }
-    }
-    return fastest;
-}
-
 void summary_off_clock(bool *is_off_clock, const fm_results *results, size_t case_index)
 {
     const uint32_t frames = results->plan->frames;
     const fm_case_result *result = &results->cases[case_index];
     if (!result->has_gpu_clock)
         return;
-    const double limit =
-        clock_slack * fastest_canary(results, results->plan->cases[case_index].device);
+    const double limit = clock_slack * results->fastest_canary_ns[result->device];
     for (size_t i = 0; i < result->sample_count; i++) {
         const fm_kept_sample *sample = &result->samples[i];
         if (sample->metric == FM_METRIC_CANARY_NS && sample->value > limit &&

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/text_index.h"
 #include "model/feeds.h"
 
 static void truth_name(char name[200], const fm_case *planned)
@@ -36,30 +37,46 @@ static fm_status find_floor(fm_truth_job *job, const fm_case *planned,
     return status;
 }
 
+/* The job that the case needs, which is a new one if no case before needed it. */
+static fm_status add_case(fm_truth_jobs *jobs, fm_text_index *names, const fm_plan *plan, size_t i,
+                          fm_error *err)
+{
+    fm_truth_job *wanted = &jobs->jobs[jobs->count];
+    truth_name(wanted->name, &plan->cases[i]);
+    const size_t job = text_index_add(names, wanted->name, jobs->count);
+    if (job == FM_TEXT_INDEX_NONE)
+        return fm_fail(err, FM_NO_MEMORY, "no memory for %zu truths", jobs->count + 1);
+    if (job == jobs->count)
+        jobs->jobs[jobs->count++].of = i;
+    else
+        jobs->next_of_same[jobs->jobs[job].last] = i;
+    jobs->jobs[job].last = i;
+    jobs->of_case[i] = job;
+    jobs->next_of_same[i] = FM_NO_CASE;
+    return FM_OK;
+}
+
 fm_status truth_jobs_create(fm_truth_jobs *jobs, const fm_plan *plan, const fm_plugin_list *plugins,
                             fm_error *err)
 {
     const size_t room = plan->count > 0 ? plan->count : 1;
+    fm_text_index names = { 0 };
     fm_status status = FM_OK;
     *jobs = (fm_truth_jobs){
         .jobs = calloc(room, sizeof *jobs->jobs),
         .of_case = calloc(room, sizeof *jobs->of_case),
+        .next_of_same = calloc(room, sizeof *jobs->next_of_same),
     };
-    if (jobs->jobs == NULL || jobs->of_case == NULL) {
+    if (jobs->jobs == NULL || jobs->of_case == NULL || jobs->next_of_same == NULL) {
         truth_jobs_free(jobs);
         return fm_fail(err, FM_NO_MEMORY, "no memory for %zu cases", plan->count);
     }
     for (size_t i = 0; i < plan->count && status == FM_OK; i++) {
-        fm_truth_job *wanted = &jobs->jobs[jobs->count];
-        size_t job = 0;
-        truth_name(wanted->name, &plan->cases[i]);
-        while (strcmp(jobs->jobs[job].name, wanted->name) != 0)
-            job++;
-        if (job == jobs->count)
-            jobs->jobs[jobs->count++].of = i;
-        jobs->of_case[i] = job;
-        status = find_floor(&jobs->jobs[job], &plan->cases[i], plugins, err);
+        status = add_case(jobs, &names, plan, i, err);
+        if (status == FM_OK)
+            status = find_floor(&jobs->jobs[jobs->of_case[i]], &plan->cases[i], plugins, err);
     }
+    text_index_free(&names);
     if (status != FM_OK)
         truth_jobs_free(jobs);
     return status;
@@ -69,5 +86,6 @@ void truth_jobs_free(fm_truth_jobs *jobs)
 {
     free(jobs->jobs);
     free(jobs->of_case);
+    free(jobs->next_of_same);
     *jobs = (fm_truth_jobs){ 0 };
 }

@@ -5,11 +5,13 @@
 #include "plan/plan.h"
 #include "plugin/plugin.h"
 
+#define FM_NO_CASE SIZE_MAX
+
 /* One truth: a scene as a device's rasteriser sees it. raster and compute feeds share it, and the
  * floor that their cases are measured beside. */
 typedef struct fm_truth_job {
     char name[200];    /* of its files: SCENEHASH-DEVICE[-FEED] */
-    size_t of;         /* the first case that needs it */
+    size_t of, last;   /* the first and the last case that need it */
     const char *floor; /* path of the floor's plugin; "": all its cases are skipped, or frames,
                           which have none */
 } fm_truth_job;
@@ -17,7 +19,8 @@ typedef struct fm_truth_job {
 typedef struct fm_truth_jobs {
     fm_truth_job *jobs;
     size_t count;
-    size_t *of_case; /* [plan->count]: which job */
+    size_t *of_case;      /* [plan->count]: which job */
+    size_t *next_of_same; /* [plan->count]: the next case of the same job; FM_NO_CASE: none */
 } fm_truth_jobs;
 
 /* FM_INVALID: no plugin is the floor of a feed. */

@@ -3,17 +3,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/text_index.h"
 #include "chosen.h"
 #include "plan_case.h"
-
-enum { ID_SLOTS = 4 * FM_PLAN_MAX_CASES };
 
 /* Everything looked up, and the cases so far. */
 typedef struct expansion {
     fm_chosen chosen;
     fm_case *cases;
     size_t count, capacity;
-    uint64_t *ids; /* [ID_SLOTS], open addressing; 0: free */
+    fm_text_index ids;
     fm_mesh_memo memo;
     fm_error *err;
 } expansion;
@@ -52,18 +51,6 @@ static uint64_t count_cases(const fm_chosen *chosen)
     return sum;
 }
 
-/* Takes the id; false: another case has it. */
-static bool take_id(expansion *state, const char *text)
-{
-    const uint64_t id = strtoull(text, NULL, 16) | 1; /* 0 is a free slot */
-    size_t slot = (size_t)(id >> 1) % ID_SLOTS;
-    for (; state->ids[slot] != 0; slot = (slot + 1) % ID_SLOTS)
-        if (state->ids[slot] == id)
-            return false;
-    state->ids[slot] = id;
-    return true;
-}
-
 static fm_status add_case(expansion *state, const fm_plan_point *point)
 {
     if (state->count == state->capacity) {
@@ -78,11 +65,12 @@ static fm_status add_case(expansion *state, const fm_plan_point *point)
     const fm_status status = plan_case_make(made, point, state->err);
     if (status != FM_OK)
         return status;
-    if (take_id(state, made->id))
+    const size_t index = text_index_add(&state->ids, made->id, state->count);
+    if (index == state->count)
         state->count++;
-    else
+    else /* another case has the id */
         plan_case_release(made);
-    return FM_OK;
+    return index != FM_TEXT_INDEX_NONE ? FM_OK : no_memory(state->err);
 }
 
 /* The next point, the last axis fastest; false: there is none. */
@@ -169,8 +157,7 @@ static fm_status expand_all(expansion *state)
     if (count_cases(&state->chosen) > FM_PLAN_MAX_CASES)
         return fm_fail(state->err, FM_INVALID, "the axes make more than %d cases",
                        FM_PLAN_MAX_CASES);
-    state->ids = calloc(ID_SLOTS, sizeof *state->ids);
-    return state->ids != NULL ? expand(state) : no_memory(state->err);
+    return expand(state);
 }
 
 fm_status plan_expand(fm_plan *plan, const fm_plan_request *request, const fm_plugin_list *plugins,
@@ -191,7 +178,7 @@ fm_status plan_expand(fm_plan *plan, const fm_plan_request *request, const fm_pl
     }
     for (size_t i = 0; state.cases != NULL && i < state.count; i++)
         plan_case_release(&state.cases[i]);
-    free(state.ids);
+    text_index_free(&state.ids);
     free(state.cases);
     chosen_destroy(&state.chosen);
     return status;
@@ -211,17 +198,17 @@ void plan_free(fm_plan *plan)
     *plan = (fm_plan){ 0 };
 }
 
+bool plan_index_ids(fm_text_index *ids, const fm_plan *plan)
+{
+    for (size_t i = 0; i < plan->count; i++)
+        if (text_index_add(ids, plan->cases[i].id, i) == FM_TEXT_INDEX_NONE)
+            return false;
+    return true;
+}
+
 static uint32_t larger(uint32_t a, uint32_t b)
 {
     return a > b ? a : b;
-}
-
-static fm_settings *find_case(const fm_plan *plan, const char *id)
-{
-    for (size_t i = 0; i < plan->count; i++)
-        if (strcmp(plan->cases[i].id, id) == 0)
-            return &plan->cases[i].settings;
-    return NULL;
 }
 
 /* A case that several specs want is measured as often as any of them wants it. */
@@ -232,21 +219,45 @@ static void take_most(fm_settings *settings, const fm_settings *more)
     settings->warmup = larger(settings->warmup, more->warmup);
 }
 
-fm_status plan_merge(fm_plan *plan, fm_plan *more, fm_error *err)
+/* All ids of both plans; those of `more` that `plan` lacks are numbered as if they stood behind its
+ * own. */
+static bool index_both(fm_text_index *ids, const fm_plan *plan, const fm_plan *more)
 {
-    fm_case *grown = reallocarray(plan->cases, plan->count + more->count + 1, sizeof *grown);
-    if (grown == NULL)
-        return fm_fail(err, FM_NO_MEMORY, "no memory for %zu cases", plan->count + more->count);
-    plan->cases = grown;
+    bool is_done = plan_index_ids(ids, plan);
+    size_t next = plan->count;
+    for (size_t i = 0; i < more->count && is_done; i++) {
+        const size_t index = text_index_add(ids, more->cases[i].id, next);
+        is_done = index != FM_TEXT_INDEX_NONE;
+        next += index == next;
+    }
+    return is_done;
+}
+
+static void take_cases(fm_plan *plan, fm_plan *more, const fm_text_index *ids)
+{
     for (size_t i = 0; i < more->count; i++) {
-        fm_settings *found = find_case(plan, more->cases[i].id);
-        if (found != NULL)
-            take_most(found, &more->cases[i].settings);
+        const size_t index = text_index_find(ids, more->cases[i].id);
+        if (index < plan->count)
+            take_most(&plan->cases[index].settings, &more->cases[i].settings);
         else {
             plan->cases[plan->count++] = more->cases[i];
             more->cases[i] = (fm_case){ 0 }; /* what it owned is the plan's now */
         }
     }
+}
+
+fm_status plan_merge(fm_plan *plan, fm_plan *more, fm_error *err)
+{
+    fm_text_index ids = { 0 };
+    fm_case *grown = reallocarray(plan->cases, plan->count + more->count + 1, sizeof *grown);
+    if (grown != NULL)
+        plan->cases = grown;
+    const bool has_all = grown != NULL && index_both(&ids, plan, more);
+    if (has_all)
+        take_cases(plan, more, &ids);
+    text_index_free(&ids);
+    if (!has_all)
+        return fm_fail(err, FM_NO_MEMORY, "no memory for %zu cases", plan->count + more->count);
     plan->seed = more->seed;
     plan->launches = larger(plan->launches, more->launches);
     plan->frames = larger(plan->frames, more->frames);

@@ -9,6 +9,7 @@
 #include <stddef.h>
 
 #include "base/error.h"
+#include "base/text_index.h"
 #include "device/registry.h"
 #include "model/descriptor.h"
 #include "model/outcome.h"
@@ -33,6 +34,7 @@ typedef struct fm_case {
     fm_case_status skip_status; /* what is then recorded: FM_CASE_NOT_SUPPORTED (k above k_max, a
                                    feed or an option's value that the method does not have, a mesh
                                    that cannot be read), or FM_CASE_PLUGIN_ERROR (it was refused) */
+    bool is_unread;             /* it is skipped because its scene's file cannot be read */
     bool no_image;              /* its picture is not kept; no part of its id */
 } fm_case;
 
@@ -78,6 +80,8 @@ fm_status plan_expand(fm_plan *plan, const fm_plan_request *request, const fm_pl
  * FM_NO_MEMORY: nothing was taken. */
 fm_status plan_merge(fm_plan *plan, fm_plan *more, fm_error *err);
 void plan_free(fm_plan *plan);
+/* Adds the id of each case, with its place in the plan. false: no memory. */
+bool plan_index_ids(fm_text_index *ids, const fm_plan *plan);
 /* How often a case is launched: as often as the plan says, but once if it is simulated and nobody
  * asked for more, since all launches of it would say the same. */
 uint32_t plan_case_launches(const fm_plan *plan, size_t index);

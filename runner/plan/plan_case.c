@@ -226,7 +226,8 @@ static fm_status make_skip(fm_case *made, const fm_plan_point *point, fm_error *
         text_add(&why, "%s", entry->error.message);
     else
         refuse_method(&why, made, point);
-    if (why.length == 0 && has_file && point->memo->error.status != FM_OK)
+    made->is_unread = why.length == 0 && has_file && point->memo->error.status != FM_OK;
+    if (made->is_unread)
         text_add(&why, "%s: %s", settings_file_key(&made->settings), point->memo->error.message);
     made->skip = why.bytes;
     made->skip_status = entry->plugin == NULL ? FM_CASE_PLUGIN_ERROR : FM_CASE_NOT_SUPPORTED;

@@ -49,6 +49,15 @@ check methods_as_json 0 '"family": "control"' "$program" list methods --json
 check doctor_knows_the_machine 0 "memory_bytes" "$program" doctor --json
 
 check plan_lists_cases 0 "k=8" "$program" plan --method kplus-array -a k=4,8 -a n=16
+printf 'generator: mesh\nmesh: absent.obj\n' >"$here/absent.yml"
+printf 'generator: mesh\nmesh: cut.obj\n' >"$here/cut.yml"
+printf 'v 0 0 0\nf 1 2 3\n' >"$here/cut.obj"
+check plan_of_a_missing_mesh_says_so 3 "absent.obj" \
+    "$program" plan --method kplus-array --scene "$here/absent.yml"
+check plan_of_a_damaged_mesh_says_so 3 "not loaded" \
+    "$program" plan --method kplus-array --scene "$here/cut.yml"
+check plan_tells_one_missing_mesh_of_several 4 "absent.obj" \
+    "$program" plan --method kplus-array --scene "$here/absent.yml,layers"
 check plan_says_it_estimates 0 "an estimate" "$program" plan --method kplus-array
 check plan_as_json 0 '"case_id"' "$program" plan --method kplus-array --json
 check unknown_method_names_the_nearest 2 "nearest is 'kplus-array'" \
@@ -58,7 +67,7 @@ check unknown_device_number_names_those_there_are 2 "there is dummy" \
 [ -e "$here/unknown-device" ] && complain "unknown_device_number: nothing is run"
 check unknown_axis_names_the_nearest 2 "pixel_density" "$program" plan -a pixel_densty=1
 check bad_value_names_the_range 2 "1..64" "$program" plan -a tessellation=65
-check missing_spec_is_a_spec_error 2 "absent.yml" "$program" plan "$here/absent.yml"
+check missing_spec_is_a_spec_error 2 "none.yml" "$program" plan "$here/none.yml"
 printf 'methods: [kplus-array]\nkk: 3\n' >"$here/bad.yml"
 check spec_error_names_file_and_line 2 "bad.yml:2" "$program" run "$here/bad.yml" -o "$here/bad"
 [ -e "$here/bad" ] && complain "spec_error: a folder was made"

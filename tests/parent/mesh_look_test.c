@@ -31,6 +31,7 @@ static void each_mesh_is_looked_at_once_and_may_crash(void **state)
     fake_plan fake;
     char told[96];
     fm_error err = { 0 };
+    fm_text_index unread = { 0 };
     fake_open(&fake, ids, 1);
     fake_write(&fake, "worker.sh", worker_script, "w");
     assert_int_equal(chmod(fake.worker, 0755), 0);
@@ -40,7 +41,7 @@ static void each_mesh_is_looked_at_once_and_may_crash(void **state)
     }
     snprintf(told, sizeof told, "%s/told", fake.folder);
     FILE *talk = fopen(told, "w");
-    if (mesh_look(talk, &fake.plan, fake.worker, &err) != FM_OK)
+    if (mesh_look(&unread, talk, &fake.plan, fake.worker, &err) != FM_OK)
         fail_msg("%s", err.message);
     fclose(talk);
     char *text = fake_read(&fake, "told"), *calls = fake_read(&fake, "calls");
@@ -48,6 +49,11 @@ static void each_mesh_is_looked_at_once_and_may_crash(void **state)
                               "not loaded: killed by SIGABRT; its scene reads /m/crash.3ds\n"
                               "/m/unseen.obj: not loaded: eye: too far\n"
                               "not loaded: /m/bad.ply:7: no\n");
+    assert_int_equal(text_index_find(&unread, "/m/good.obj"), FM_TEXT_INDEX_NONE);
+    for (size_t i = 0; files[i] != NULL; i++)
+        if (strstr(files[i], "good") == NULL)
+            assert_int_equal(text_index_find(&unread, files[i]), 0);
+    text_index_free(&unread);
     assert_string_equal(calls, "called\ncalled\ncalled\ncalled\n");
     free(text);
     free(calls);

@@ -354,10 +354,48 @@ static void skipped_cases_tell_refusal_from_missing_support(void **state)
     fake_close(&fake);
 }
 
+static size_t summary_bytes(const fm_results *results)
+{
+    char *bytes = NULL;
+    size_t count = 0;
+    if (text_read_file(&bytes, &count, results->summary_path, 1u << 20, NULL) != FM_OK)
+        count = 0;
+    free(bytes);
+    return count;
+}
+
+static void summary_of_many_cases_waits_for_its_turn(void **state)
+{
+    (void)state;
+    fake_plan fake;
+    fm_results *results = created(&fake, 1);
+    fm_plan many = fake.plan;
+    many.count = 1000; /* what is finished is far below 1/64 of them */
+    assert_int_equal(results_write_summary_if_due(results, 100.0, NULL), FM_OK);
+    const size_t empty = summary_bytes(results);
+    assert_true(empty > 0);
+    const double ms[] = { 1.0, -1 }, steady[] = { 10 };
+    add(results, 0, ms, steady);
+    results->plan = &many;
+    assert_int_equal(results_write_summary_if_due(results, 101.0, NULL), FM_OK);
+    results->plan = &fake.plan;
+    assert_int_equal(summary_bytes(results), empty);
+    results->took_s = 1.0; /* so that 3 s are too soon, too */
+    results->plan = &many;
+    assert_int_equal(results_write_summary_if_due(results, 103.0, NULL), FM_OK);
+    results->plan = &fake.plan;
+    assert_int_equal(summary_bytes(results), empty);
+    assert_int_equal(results_write_summary_if_due(results, 103.5, NULL), FM_OK);
+    assert_true(summary_bytes(results) > empty);
+    results_destroy(results);
+    fake_close(&fake);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(csv_quotes_as_rfc_4180_says),
+        cmocka_unit_test(summary_of_many_cases_waits_for_its_turn),
         cmocka_unit_test(summary_has_the_columns_of_the_design_in_order),
         cmocka_unit_test(summary_row_holds_medians_ratios_and_rates),
         cmocka_unit_test(every_time_and_ratio_has_an_interval_by_launches),

@@ -84,15 +84,19 @@ static void remove_directory(const char *directory)
 
 static void make_results(char directory[64], const fake_case *fakes, size_t count)
 {
-    fm_text csv = { 0 };
+    fm_text csv = { 0 }, samples = { 0 };
     make_directory(directory);
     text_add(&csv, "%s", header);
-    for (size_t i = 0; i < count; i++)
+    text_add(&samples, "%s", sample_header);
+    for (size_t i = 0; i < count; i++) {
         add_case(&csv, &fakes[i]);
+        text_add(&samples, "1,r,%s,0,0,store_ms,1,ms\n", fakes[i].id);
+    }
     write_file(directory, "summary.csv", csv.bytes);
-    write_file(directory, "samples.csv", sample_header);
+    write_file(directory, "samples.csv", samples.bytes);
     write_file(directory, "manifest.json", manifest);
     text_free(&csv);
+    text_free(&samples);
 }
 
 static const fake_case usual[] = {
