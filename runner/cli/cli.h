@@ -22,7 +22,7 @@ enum {
     CLI_USAGE = 2,       /* usage or spec error: nothing was run */
     CLI_NOTHING = 3,     /* nothing could be measured */
     CLI_SOME_FAILED = 4, /* crash, timeout, out of memory, refused plugin, wrong image */
-    CLI_INCOMPLETE = 5,  /* the run's own files failed, a full disk say: it can be continued */
+    CLI_INCOMPLETE = 5,  /* the world stopped the run, a full disk say: it can be continued */
     CLI_DAMAGED = 8,     /* a damaged or foreign file */
     CLI_SIGNAL = 128,    /* + its number: interrupted, can be continued */
 };
@@ -30,8 +30,10 @@ enum {
     "Exit codes: 0 done; 1 a claim that its figure declares required fails; 2 usage or spec "      \
     "error, nothing was run; 3 nothing could be measured; "                                        \
     "4 some cases failed (crash, timeout, out of memory, refused plugin, wrong image of an exact " \
-    "method); 5 incomplete: the run's own files failed, and the same command continues it; "       \
-    "8 damaged or foreign file; 130, 143 interrupted: the same command continues it."
+    "method); 5 incomplete: a full disk, a missing driver, a limit or somebody's kill stopped "    \
+    "the "                                                                                         \
+    "run, and the same command continues it; "                                                     \
+    "8 damaged or foreign file; 129, 130, 143 interrupted: the same command continues it."
 
 /* What main.c hands to every subcommand. */
 typedef struct fm_cli {

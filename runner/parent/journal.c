@@ -19,6 +19,7 @@ struct fm_journal {
     char run_id[17];
     char started[32];
     off_t begin; /* of the first line after the plan's */
+    bool is_continued;
 };
 
 static const char *const event_name[] = {
@@ -36,6 +37,7 @@ static fm_status write_line(fm_journal *journal, json_t *line, fm_error *err)
     fm_status status = FM_OK;
     char *text = line == NULL ? NULL : json_dumps(line, JSON_COMPACT);
     const size_t length = text == NULL ? 0 : strlen(text);
+    const off_t before = lseek(journal->fd, 0, SEEK_END);
     size_t written = 0;
     if (text == NULL)
         return fm_fail(err, FM_NO_MEMORY, "%s: no memory for a line", journal->path);
@@ -46,6 +48,8 @@ static fm_status write_line(fm_journal *journal, json_t *line, fm_error *err)
             continue;
         if (count < 0) {
             status = fm_fail(err, FM_IO, "%s: %s", journal->path, strerror(errno));
+            if (written > 0 && ftruncate(journal->fd, before) != 0) /* or the next is glued to it */
+                fm_error_prefix(err, "half a line was written");
             goto out;
         }
         written += (size_t)count;
@@ -129,6 +133,7 @@ static fm_status open_plan(fm_journal *journal, bool *is_damaged, fm_error *err)
     const size_t start_length = sizeof plan_line_start - 1;
     if (length > 0 && text[length - 1] == '\n') {
         journal->begin = (off_t)length;
+        journal->is_continued = true;
         status = check_plan(journal, text, is_damaged, err);
     } else if (length > 0 &&
                strncmp(text, plan_line_start,
@@ -159,7 +164,8 @@ fm_status journal_open(fm_journal **journal, const char *directory, const char *
         goto out;
     opened->fd = open(opened->path, O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
     if (opened->fd < 0) {
-        status = fm_fail(err, FM_INVALID, "%s: %s", opened->path, strerror(errno));
+        status = fm_fail(err, errno == ENOSPC || errno == EDQUOT ? FM_IO : FM_INVALID, "%s: %s",
+                         opened->path, strerror(errno));
         goto out;
     }
     if (flock(opened->fd, LOCK_EX | LOCK_NB) != 0) {
@@ -251,6 +257,11 @@ fm_status journal_write(fm_journal *journal, fm_journal_event event, const char 
     const fm_status status = write_line(journal, line, err);
     json_decref(line);
     return status;
+}
+
+bool journal_is_continued(const fm_journal *journal)
+{
+    return journal->is_continued;
 }
 
 const char *journal_run_id(const fm_journal *journal)

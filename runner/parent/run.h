@@ -56,9 +56,13 @@ typedef struct fm_run_result {
     bool is_damaged;     /* FM_IO because the journal is damaged or foreign */
 } fm_run_result;
 
+/* Makes a folder, and those above it. FM_INVALID: it cannot be made, with the one that it fails at;
+ * FM_IO: the disk is full. */
+fm_status run_make_folder(const char *path, fm_error *err);
+
 /* Runs all launches that an earlier run in the same directory has not finished.
  * FM_INVALID: nothing was run: no floor method, the directory belongs to another plan, is in use,
- * or cannot be made. FM_IO: files cannot be written, the world stopped the run, or
+ * or cannot be made or written. FM_IO: files cannot be written, the world stopped the run, or
  * is_damaged. The run can be continued after
  * every error but the damage. */
 fm_status run_cases(fm_run_result *result, const fm_plan *plan, const fm_plugin_list *plugins,
