@@ -32,6 +32,11 @@ finish driver
 # The shell writes in blocks of 1024 bytes.
 expect 5 "File too large" "files of 2 kB" bash -c 'ulimit -f 2; exec "$@"' - "$program" "${arguments[@]}" -o "$work/size"
 finish size
+for memory in 300000 600000; do
+    expect 5 "ulimit -v" "$memory kB of memory" bash -c "ulimit -v $memory; exec \"\$@\"" - \
+        "$program" "${arguments[@]}" -o "$work/memory"
+done
+finish memory
 for files in 6 9 11; do
     expect 5 "Too many open files" "$files files" bash -c "ulimit -n $files; exec \"\$@\"" - \
         "$program" "${arguments[@]}" -o "$work/files"
