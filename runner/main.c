@@ -1,4 +1,5 @@
 /* The program: subcommands, the streams they talk to, exit codes. */
+#include <signal.h>
 #include <string.h>
 
 #include "base/text.h"
@@ -71,6 +72,8 @@ int main(int argc, char **argv)
         write_help(stderr);
         return CLI_USAGE;
     }
+    /* A limit on files is an error of whoever writes, which tells what it could not write. */
+    signal(SIGXFSZ, SIG_IGN);
     const char *name = argv[1];
     if (strcmp(name, "worker") == 0 && argc == 4)
         return worker_main(argv[2], argv[3], &program_devices);

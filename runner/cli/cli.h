@@ -32,10 +32,10 @@ enum {
     "Exit codes: 0 done; 1 a claim that its figure declares required fails; 2 usage or spec "      \
     "error, nothing was run; 3 nothing could be measured; "                                        \
     "4 some cases failed (crash, timeout, out of memory, refused plugin, wrong image of an exact " \
-    "method); 5 incomplete: the run's own files failed, and the same command continues it, or "    \
-    "the report cannot be drawn, or lacks something; "                                             \
-    "7 other code (program, driver, plugin or shaders) than rows were begun with; "                \
-    "8 damaged or foreign file; 130, 143 interrupted: the same command continues it."
+    "method); 5 incomplete: a full disk, a missing driver, a limit or somebody's kill stopped "    \
+    "the run, and the same command continues it, or the report cannot be drawn, or lacks "         \
+    "something; 7 other code (program, driver, plugin or shaders) than rows were begun with; "     \
+    "8 damaged or foreign file; 129, 130, 143 interrupted: the same command continues it."
 
 /* What main.c hands to every subcommand. */
 typedef struct fm_cli {

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "cli.h"
+#include "parent/run.h"
 #include "plan/memory_table.h"
 
 enum { KEY_SMOKE = 512, KEY_LARGE, KEY_REFERENCE, KEY_SEEDS };
@@ -264,8 +265,9 @@ static fm_status write_figure_cases(const char *directory, const fm_text *csv, f
     snprintf(path, sizeof path, "%s/figures.csv", directory);
     if (access(path, F_OK) == 0)
         return FM_OK;
-    if (mkdir(directory, 0777) != 0 && errno != EEXIST)
-        return fm_fail(err, FM_IO, "%s: %s", directory, strerror(errno));
+    const fm_status status = run_make_folder(directory, err);
+    if (status != FM_OK)
+        return status;
     return csv->failed ? fm_fail(err, FM_NO_MEMORY, "%s", path)
                        : text_write_file(path, csv->bytes, csv->length, err);
 }

@@ -1,6 +1,7 @@
 #include "parent/run.h"
 
 #include <math.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -148,18 +149,6 @@ static fm_status keep_memory(const cli_run_desc *desc, fm_error *err)
     return text_write_file(path, desc->memory->bytes, desc->memory->length, err);
 }
 
-/* Who edits a method and repeats a command would take old results for new ones. */
-static void tell_continued(const fm_arguments *arguments, const char *directory)
-{
-    char journal[FM_PATH_MAX_BYTES + 16];
-    snprintf(journal, sizeof journal, "%s/journal.jsonl", directory);
-    if (!arguments->quiet && access(journal, F_OK) == 0)
-        fprintf(arguments->cli->talk,
-                "%s: goes on with what an earlier run left; what it finished is not measured again "
-                "(--fresh measures what was changed since, another -o all)\n",
-                directory);
-}
-
 /* A plan may be for another machine; a run is for this one. */
 static fm_status expect_devices(const fm_device_list *devices, const fm_plan *plan, fm_error *err)
 {
@@ -175,7 +164,7 @@ static int fail_run(const fm_arguments *arguments, const fm_run_result *result, 
     const int code = cli_fail(arguments->cli, err);
     if (result->is_other_code)
         return CLI_OTHER_CODE;
-    if (err->status != FM_IO)
+    if (err->status != FM_IO && err->status != FM_NO_MEMORY)
         return code;
     return result->is_damaged ? CLI_DAMAGED : CLI_INCOMPLETE;
 }
@@ -199,7 +188,8 @@ int cli_run_plan(const fm_arguments *arguments, const cli_run_desc *desc)
     };
     if (expect_devices(arguments->cli->devices, desc->plan, &err) != FM_OK)
         return cli_fail(arguments->cli, &err);
-    tell_continued(arguments, desc->directory);
+    /* Who reads the talk may go (`| head`): that costs the talk, and not a run of hours. */
+    signal(SIGPIPE, SIG_IGN);
     fm_status status = run_cases(&result, desc->plan, desc->plugins, &run, &err);
     if (status == FM_OK)
         status = keep_memory(desc, &err);

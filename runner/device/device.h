@@ -228,8 +228,9 @@ typedef struct fm_device_ops {
     /* Lists what could be opened. *count: in, how many entries there is room for; out, how many
      * were filled. Without a driver that is 0, and FM_OK. */
     fm_status (*list)(fm_device_entry *entries, size_t *count, fm_error *err);
-    /* Opens a device, which the caller ends with close. FM_UNSUPPORTED: no such driver here, with
-     * how to get one. FM_INVALID: the selector fits none, with those that there are. FM_NO_MEMORY.
+    /* Opens a device, which the caller ends with close. FM_UNSUPPORTED: the device lacks what
+     * every method needs. Else it says nothing of the device: FM_IO: no driver works here, with how
+     * to get one; FM_INVALID: the selector fits none, with those that there are; FM_NO_MEMORY.
      * On failure *device is NULL. */
     fm_status (*open)(fm_device **device, const fm_device_desc *desc, fm_error *err);
     /* Accepts NULL. A GPU that hangs is left alone with all that it may still work on. */

@@ -20,6 +20,7 @@ struct fm_journal {
     char run_id[17];
     char started[32];
     off_t begin; /* of the first line after the plan's */
+    bool is_continued;
 };
 
 static const char *const event_name[] = {
@@ -40,6 +41,7 @@ static fm_status write_line(fm_journal *journal, json_t *line, fm_error *err)
     fm_status status = FM_OK;
     char *text = line == NULL ? NULL : json_dumps(line, JSON_COMPACT);
     const size_t length = text == NULL ? 0 : strlen(text);
+    const off_t before = lseek(journal->fd, 0, SEEK_END);
     size_t written = 0;
     if (text == NULL)
         return fm_fail(err, FM_NO_MEMORY, "%s: no memory for a line", journal->path);
@@ -50,6 +52,8 @@ static fm_status write_line(fm_journal *journal, json_t *line, fm_error *err)
             continue;
         if (count < 0) {
             status = fm_fail(err, FM_IO, "%s: %s", journal->path, strerror(errno));
+            if (written > 0 && ftruncate(journal->fd, before) != 0) /* or the next is glued to it */
+                fm_error_prefix(err, "half a line was written");
             goto out;
         }
         written += (size_t)count;
@@ -159,6 +163,7 @@ static fm_status open_plan(fm_journal *journal, bool *is_damaged, fm_error *err)
     const size_t start_length = sizeof plan_line_start - 1;
     if (kind == LINE_WHOLE && !text.failed) {
         journal->begin = ftello(file);
+        journal->is_continued = true;
         status = check_plan(journal, &text, is_damaged, err);
     } else if (kind == LINE_LONG || text.length > PLAN_LINE_MAX_BYTES ||
                strncmp(text.bytes != NULL ? text.bytes : "", plan_line_start,
@@ -206,7 +211,8 @@ fm_status journal_open(fm_journal **journal, const char *directory, const char *
     status = file_check_replaceable(opened->path, err);
     *is_damaged = status != FM_OK;
     if (status == FM_OK && file_open_append(&opened->fd, opened->path, &below) != FM_OK)
-        status = fm_fail(err, FM_INVALID, "%s", below.message);
+        status = fm_fail(err, errno == ENOSPC || errno == EDQUOT ? FM_IO : FM_INVALID, "%s",
+                         below.message);
     if (status != FM_OK)
         goto out;
     if (flock(opened->fd, LOCK_EX | LOCK_NB) != 0) {
@@ -370,6 +376,11 @@ fm_status journal_write(fm_journal *journal, fm_journal_event event, const char 
     const fm_status status = write_line(journal, line, err);
     json_decref(line);
     return status;
+}
+
+bool journal_is_continued(const fm_journal *journal)
+{
+    return journal->is_continued;
 }
 
 const char *journal_run_id(const fm_journal *journal)

@@ -58,6 +58,8 @@ void journal_close(fm_journal *journal);
 fm_status journal_write(fm_journal *journal, fm_journal_event event, const char *case_id,
                         uint32_t launch, json_t *result, fm_error *err);
 
+/* It was there before: an earlier process wrote it. */
+bool journal_is_continued(const fm_journal *journal);
 /* Of the run, not of this process: a resumed run keeps both. */
 const char *journal_run_id(const fm_journal *journal);
 const char *journal_started(const fm_journal *journal); /* "2026-01-31T12:00:00Z" */

@@ -53,7 +53,8 @@ void progress_tell(fm_progress *progress, const char *subject, const char *sente
         return;
     fprintf(progress->out, "%s%s: %s\n", progress->is_terminal ? "\r\033[K" : "", subject,
             sentence);
-    progress_tick(progress);
+    if (progress->started_s > 0.0)
+        progress_tick(progress);
 }
 
 void progress_begin(fm_progress *progress, const char *current)

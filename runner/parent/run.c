@@ -126,6 +126,20 @@ static fm_status write_manifest(const run_state *run, bool is_ended, fm_error *e
     return manifest_write(&desc, err);
 }
 
+/* Who edits a method and repeats a command would take old results for new ones. */
+static void tell_continued(run_state *run)
+{
+    char anew[64];
+    if (journal_is_continued(run->journal))
+        progress_tell(
+            &run->progress, run->desc->directory,
+            "goes on with what an earlier run left; what it finished is not measured again "
+            "(remove the folder, or name another, to measure anew)");
+    snprintf(anew, sizeof anew, "rows that are measured anew: %u", run->forgotten);
+    if (run->forgotten > 0)
+        progress_tell(&run->progress, run->desc->directory, anew);
+}
+
 static fm_status prepare(run_state *run, fm_error *err)
 {
     fm_status status = truth_jobs_create(&run->truths, run->plan, run->plugins, err);
@@ -139,6 +153,8 @@ static fm_status prepare(run_state *run, fm_error *err)
         status = write_manifest(run, false, err);
     if (status == FM_OK)
         status = results_write_summary(run->results, err);
+    if (status == FM_OK)
+        tell_continued(run);
     return status;
 }
 

@@ -1,6 +1,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include "base/clock.h"
@@ -61,6 +62,20 @@ static fm_status fail_run(const json_t *answer, const char *current, fm_error *e
                    current, answer_message(answer));
 }
 
+/* No plugin is at work in a truth. If it dies, or has no memory, under a limit on memory that the
+ * run was given (not by --memory-limit, which asks for such rows), then the limit is to blame. */
+static bool is_of_given_limit(const run_state *run, json_t *answer)
+{
+    struct rlimit limit;
+    const fm_case_status status = answer_status(answer);
+    if ((status != FM_CASE_CRASH && status != FM_CASE_OUT_OF_MEMORY) ||
+        run->desc->memory_bytes != 0 || getrlimit(RLIMIT_AS, &limit) != 0 ||
+        limit.rlim_cur == RLIM_INFINITY)
+        return false;
+    answer_add_note(answer, "the run was given a limit on memory (ulimit -v)");
+    return true;
+}
+
 const char *run_plugin_path(const run_state *run, const fm_case *planned)
 {
     const fm_plugin_entry *entry = plugin_list_find(run->plugins, planned->method);
@@ -112,7 +127,7 @@ fm_status run_capture_truth(run_state *run, size_t job, fm_error *err)
     free(death);
     if (status != FM_OK || outcome.kind == FM_LAUNCH_INTERRUPTED)
         return status;
-    if (answer_is_runs_fault(outcome.result))
+    if (answer_is_runs_fault(outcome.result) || is_of_given_limit(run, outcome.result))
         status = fail_run(outcome.result, current, err);
     else if (answer_status(outcome.result) != FM_CASE_OK)
         status = fail_truth(run, job, outcome.result, err);

@@ -65,13 +65,29 @@ static const char *method_version(const row_state *row)
     return version != NULL ? version : "";
 }
 
+/* Parts stand one after the other. */
+static void add_part(fm_text *message, const char *part)
+{
+    if (part[0] != '\0')
+        text_add(message, "%s%s", message->length > 0 ? "; " : "", part);
+}
+
 static void write_message(fm_text *text, const row_state *row)
 {
+    char part[96];
     fm_text message = { 0 };
-    if (row->excluded > 0 && row->samples < FM_SAMPLES_WANTED)
-        text_add(&message, "unclear: only %zu samples at full clock%s", row->samples,
-                 row->result->message[0] != '\0' ? "; " : "");
-    text_add(&message, "%s", row->result->message);
+    const fm_plan *plan = row->results->plan;
+    const uint32_t done = row->result->done,
+                   wanted = plan_case_launches(plan, (size_t)(row->measured - plan->cases));
+    if (row->excluded > 0 && row->samples < FM_SAMPLES_WANTED) {
+        snprintf(part, sizeof part, "unclear: only %zu samples at full clock", row->samples);
+        add_part(&message, part);
+    }
+    if (done > 0 && done < wanted && case_status_continues(row->result->status)) {
+        snprintf(part, sizeof part, "%u of %u launches so far: the run is not finished", done, wanted);
+        add_part(&message, part);
+    }
+    add_part(&message, row->result->message);
     csv_add(text, message.bytes != NULL ? message.bytes : "");
     text_free(&message);
 }

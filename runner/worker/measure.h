@@ -33,6 +33,7 @@ typedef struct fm_measurement {
     uint32_t k_chosen;      /* where the method chooses its k; 0: it does not */
     uint64_t frames_redone; /* because something had to grow; warm-up and check included */
     uint64_t redone_ns;     /* of the passes of the frames that were thrown away for it */
+    bool gave_up;           /* a frame was lossy in all its tries there */
     uint64_t frames_lossy;  /* run again on a software rasteriser, since a lock gave up */
     fm_image *image;        /* of the last timed frame; owned */
     uint64_t *image_hashes; /* [distinct_images], of all timed frames, by the device; owned */

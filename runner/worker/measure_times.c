@@ -27,6 +27,7 @@ fm_status measure_frame(fm_frame_result *result, fm_measurement *measurement, fm
         if (status != FM_OK || (result->lost == 0 && result->cut == 0))
             break;
         measurement->frames_lossy++;
+        measurement->gave_up = measurement->gave_up || (tries > 1 && i == tries - 1);
     }
     return status == FM_OK ? instance_cut(instance, result->cut, err) : status;
 }

@@ -1,8 +1,10 @@
 #include "worker.h"
 
+#include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "answer.h"
 #include "capture/truth_capture.h"
@@ -39,6 +41,7 @@ typedef struct launch_job {
     bool is_plugins;  /* the plugin is at work: what fails now is its fault */
     bool is_opening;  /* it is being opened: whatever the status, it is refused */
     bool is_truths;   /* the truth file is read */
+    bool is_devices;  /* the device cannot be opened, which says nothing of what it supports */
     bool is_floors;   /* the floor, which fragmark brings, is opened */
 } launch_job;
 
@@ -52,7 +55,7 @@ static fm_status read_feed(launch_job *job)
     return FM_OK;
 }
 
-/* No such device, or a mesh that cannot be used, is nothing that a plugin did wrong. */
+/* A mesh that cannot be used is nothing that a plugin did wrong. */
 static fm_status not_the_plugins(fm_status status)
 {
     return status == FM_INVALID || status == FM_IO ? FM_UNSUPPORTED : status;
@@ -78,8 +81,9 @@ static fm_status open_device(launch_job *job)
                                   .no_timers = job->request->no_timers };
     fm_status status =
         device_open(&job->device, job->devices, job->request->device, &desc, &job->error);
+    job->is_devices = status != FM_OK && status != FM_UNSUPPORTED;
     if (status != FM_OK)
-        return not_the_plugins(status);
+        return status;
     answer_set_device(job->answer, &job->device->caps);
     job->code.driver = hash_driver(&job->device->caps, job->code.program);
     return FM_OK;
@@ -123,14 +127,26 @@ static bool is_bad_input(fm_status status)
     return status == FM_IO || status == FM_INVALID || status == FM_SHADER;
 }
 
+/* What the world does to whoever opens or writes a file, whoever that is. */
+static bool names_the_world(const char *message)
+{
+    static const int causes[] = { ENOSPC, EDQUOT, EFBIG, EMFILE, ENFILE, EROFS, EIO };
+    for (size_t i = 0; i < sizeof causes / sizeof causes[0]; i++)
+        if (strstr(message, strerror(causes[i])) != NULL)
+            return true;
+    return false;
+}
+
 /* What the run itself writes and reads, its requests, and what fragmark brings: GLSL of the runner
- * and the floor. Disks fill, somebody deletes, an installation breaks; no method did anything
- * wrong. */
+ * and the floor; and a device that cannot be opened. Disks fill, somebody deletes, an installation
+ * breaks; no method did anything wrong. */
 static bool is_runs_fault(const launch_job *job, fm_status status)
 {
     if (status == FM_OK)
         return false;
-    if (!job->has_request || job->is_floors)
+    if (!job->has_request || job->is_floors || job->is_devices)
+        return true;
+    if ((status == FM_IO || job->is_opening) && names_the_world(job->error.message))
         return true;
     if (job->measurement.is_floors)
         return is_bad_input(status);
@@ -375,6 +391,31 @@ static fm_case_status case_status_of(launch_job *job, fm_status status)
     return wrong ? FM_CASE_WRONG_IMAGE : FM_CASE_OK;
 }
 
+/* A lock that gave up on a software rasteriser is perhaps the machine's doing. */
+static void note_starved(launch_job *job, fm_case_status word)
+{
+    if (!job->measurement.gave_up || (word != FM_CASE_WRONG_IMAGE && word != FM_CASE_NOT_SUPPORTED))
+        return;
+    note(job, "a lock gave up in all tries of a frame, as it may where the machine is busy");
+    answer_set_starved(job->answer);
+}
+
+/* An answer that does not fit is tried once more with the reason alone. */
+static int write_answer(const json_t *answer, const char *path)
+{
+    int written = json_dump_file(answer, path, JSON_INDENT(1));
+    if (written == 0)
+        return 0;
+    const int cause = errno;
+    char message[FM_PATH_MAX_BYTES + 128];
+    unlink(path);
+    snprintf(message, sizeof message, "%s: %s", path, strerror(cause));
+    json_t *reason = answer_make_runs_fault(message);
+    written = json_dump_file(reason, path, 0);
+    json_decref(reason);
+    return written == 0 ? 0 : WORKER_EXIT_NO_ANSWER;
+}
+
 int worker_main(const char *request_path, const char *answer_path, const fm_device_list *devices)
 {
     launch_job job = { .devices = devices, .answer = json_object() };
@@ -390,6 +431,7 @@ int worker_main(const char *request_path, const char *answer_path, const fm_devi
                                               : measure_job(&job);
     const fm_case_status word = case_status_of(&job, status);
     note_validation(&job, word);
+    note_starved(&job, word);
     if (is_runs_fault(&job, status)) {
         answer_set_runs_fault(job.answer, job.error.message);
         if (job.is_truths)
@@ -400,7 +442,7 @@ int worker_main(const char *request_path, const char *answer_path, const fm_devi
     answer_set_code(job.answer, &job.code);
     if (!job.request->is_truth_job)
         answer_add_launch(job.answer, &job.measurement);
-    const int written = json_dump_file(job.answer, answer_path, JSON_INDENT(1));
+    const int code = write_answer(job.answer, answer_path);
     release(&job);
-    return written == 0 ? 0 : WORKER_EXIT_NO_ANSWER;
+    return code;
 }

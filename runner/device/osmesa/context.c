@@ -18,11 +18,11 @@ fm_status osmesa_context_create(osmesa *self, fm_error *err)
     };
     self->context = OSMesaCreateContextAttribs(attributes, NULL);
     if (self->context == NULL)
-        return fm_fail(err, FM_UNSUPPORTED,
+        return fm_fail(err, FM_IO,
                        "osmesa: no OpenGL 4.5 core context; install libosmesa6 with llvmpipe");
     if (!OSMesaMakeCurrent(self->context, self->window, GL_UNSIGNED_BYTE, OSMESA_WINDOW_PX,
                            OSMESA_WINDOW_PX))
-        return fm_fail(err, FM_UNSUPPORTED, "osmesa: the context cannot be made current");
+        return fm_fail(err, FM_IO, "osmesa: the context cannot be made current");
     return gl_load(&self->gl, err);
 }
 

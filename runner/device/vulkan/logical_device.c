@@ -145,6 +145,8 @@ fm_status vulkan_logical_device_create(vulkan *self, fm_error *err)
     const VkResult result = vkCreateDevice(self->physical, &info, NULL, &self->device);
     if (result != VK_SUCCESS) {
         self->device = VK_NULL_HANDLE;
+        if (result == VK_ERROR_INITIALIZATION_FAILED) /* another day it may work */
+            return fm_fail(err, FM_IO, "vulkan: '%s' cannot be opened", self->base.caps.name);
         return vulkan_fail(err, result, "vulkan: opening '%s'", self->base.caps.name);
     }
     vkGetDeviceQueue(self->device, self->queue_family, 0, &self->queue);

@@ -124,6 +124,16 @@ static void close_device(fm_device *device)
     free(self);
 }
 
+/* A driver that is missing or does not work says nothing of a device. */
+static fm_status no_driver(fm_status status, fm_error *err)
+{
+    if (status != FM_UNSUPPORTED)
+        return status;
+    if (err != NULL)
+        err->status = FM_IO;
+    return FM_IO;
+}
+
 static fm_status open_device(fm_device **device, const fm_device_desc *desc, fm_error *err)
 {
     *device = NULL;
@@ -136,6 +146,7 @@ static fm_status open_device(fm_device **device, const fm_device_desc *desc, fm_
         vulkan_instance_create(&self->instance, &self->validation, desc->validation, err);
     if (status == FM_OK)
         status = choose_device(self, desc->selector, err);
+    status = no_driver(status, err);
     if (status == FM_OK) {
         vulkan_caps_find(self);
         status = vulkan_logical_device_create(self, err);
