@@ -167,8 +167,7 @@ typedef struct fm_method_desc {
                              folder and of its .so; not "common" */
     const char *title;    /* as the paper writes it, UTF-8: "K+B-Array"; needed, as the next two */
     const char *citation; /* authors, year, title, DOI */
-    const char *version;  /* changes whenever results may, also where an option gets another default;
-                             a column of summary.csv */
+    const char *version;  /* changes whenever results or defaults may; a column of summary.csv */
     uint32_t traits;      /* FM_TRAIT_* */
     uint32_t features;    /* FM_FEATURE_* without which it does not run */
     uint32_t feeds;       /* FM_FEED_*; 0 is FM_FEEDS_FRAGMENTS. FM_FEED_TRIANGLES stands alone, and
