@@ -104,7 +104,7 @@ refused "$work/done" null.so -a launches=1
 
 # The program
 echo >>"$work/bin/fragmark"
-refused "$work/done" '(program)' -a launches=1
+refused "$work/done" '(program, plugin: null.so)' -a launches=1
 renewed "$work/done" 3 3 -a launches=1
 run "$work/done" -q -a launches=1
 [ "$code" -eq 0 ] || complain "nothing changed, and the exit code is $code: $(cat "$work/talk")"
