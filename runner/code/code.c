@@ -164,6 +164,11 @@ void code_digits(char digits[17], uint64_t hash)
         digits[0] = '\0';
 }
 
+bool code_has_driver(const fm_code *code)
+{
+    return code->driver != 0 && code->driver != code->program;
+}
+
 static bool differs(uint64_t a, uint64_t b)
 {
     return a != 0 && b != 0 && a != b;
@@ -173,7 +178,8 @@ uint32_t code_changes(fm_text_list *names, const fm_code *then, const fm_code *n
 {
     uint32_t changes = 0;
     changes |= differs(then->program, now->program) ? 1u << FM_CODE_PROGRAM : 0;
-    changes |= differs(then->driver, now->driver) ? 1u << FM_CODE_DRIVER : 0;
+    if (code_has_driver(then))
+        changes |= differs(then->driver, now->driver) ? 1u << FM_CODE_DRIVER : 0;
     for (size_t i = 0; i < then->count; i++) {
         const fm_code_file *file = &then->files[i], *other = find(now, file);
         if (other == NULL || other->hash == file->hash)

@@ -16,7 +16,8 @@
 /* The four parts; a hash of 0 is "not known", and differs from nothing. */
 typedef enum fm_code_part {
     FM_CODE_PROGRAM, /* the executable's content */
-    FM_CODE_DRIVER,  /* what tells this build of the driver, and its device, from all others */
+    FM_CODE_DRIVER,  /* what tells this build of the driver, and its device, from all others; of
+                        devices that are a part of the program, the program's */
     FM_CODE_PLUGIN,  /* the method's shared object, and the floor's, which ratios rest on */
     FM_CODE_SHADERS, /* all GLSL that was read: the method's, other methods', common, the floor's;
                         what the runner puts around it is the program's */
@@ -68,6 +69,8 @@ uint64_t code_part(const fm_code *code, fm_code_part part);
 /* 16 hex digits; 0 is "". */
 void code_digits(char digits[17], uint64_t hash);
 
+/* Whether the driver is another one than the program, and known. */
+bool code_has_driver(const fm_code *code);
 /* Which parts differ, as bits 1 << part. What only one of the two knows is no difference. names:
  * gets each file that differs, once; NULL: nobody asks. */
 uint32_t code_changes(fm_text_list *names, const fm_code *then, const fm_code *now);

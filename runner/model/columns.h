@@ -21,13 +21,13 @@ typedef enum fm_fact {
     FM_FACT_DEVICE_NAME,    /* as it calls itself */
     FM_FACT_FEED,           /* feed_name */
     FM_FACT_SCENE,          /* its name, or the path of its file */
-    FM_FACT_OPTIONS,        /* "key=value ...": a method's own, and keys off their default that have
-                               no column */
-    FM_FACT_CODE_PROGRAM,   /* 16 hex digits of what the row was measured by (code/code.h) */
-    FM_FACT_CODE_DRIVER,    /* the same; empty: no launch opened the device */
-    FM_FACT_CODE_PLUGIN,    /* of the method's plugin and the floor's */
-    FM_FACT_CODE_SHADERS,   /* of all GLSL that was read; empty: none was */
-    FM_FACT_NOISY,          /* why its times are not to be relied on; empty: no reason is known */
+    FM_FACT_OPTIONS, /* "key=value ...": all of a method's own, and keys off their default that have
+                        no column */
+    FM_FACT_CODE_PROGRAM, /* 16 hex digits of what the row was measured by (code/code.h) */
+    FM_FACT_CODE_DRIVER,  /* the same; empty: no launch opened the device */
+    FM_FACT_CODE_PLUGIN,  /* of the method's plugin and the floor's */
+    FM_FACT_CODE_SHADERS, /* of all GLSL that was read; empty: none was */
+    FM_FACT_NOISY,        /* why its times are not to be relied on; empty: no reason is known */
     FM_FACT_COUNT
 } fm_fact;
 

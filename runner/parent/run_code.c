@@ -167,7 +167,7 @@ static fm_status compare_row(uint32_t *changes, fm_text_list *files, run_state *
 {
     fm_status status = FM_OK;
     fm_code now = { 0 };
-    if (then->driver != 0)
+    if (code_has_driver(then))
         status = look_at_driver(run, case_index, err);
     const fm_code_places places = places_of(run, case_index);
     code_look_again(&now, then, &places);

@@ -4,9 +4,9 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "code/shader_files.h"
 #include "device/device.h"
 #include "model/settings.h"
-#include "code/shader_files.h"
 
 /* A resource as shaders see it. */
 typedef struct fm_slot {

@@ -108,6 +108,9 @@ static void what_nobody_knows_is_no_change(void **state)
     fm_code then = sample(), now = sample();
     then.driver = 0;
     assert_int_equal(code_changes(NULL, &then, &now), 0);
+    then.driver = then.program; /* a part of the program: the program is what changes */
+    now.program = now.driver = 9;
+    assert_int_equal(code_changes(NULL, &then, &now), 1u << FM_CODE_PROGRAM);
     code_free(&then);
     code_free(&now);
 }

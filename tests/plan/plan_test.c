@@ -286,28 +286,6 @@ static void plan_gives_an_option_to_the_methods_that_have_it(void **state)
     plan_free(&with.plan);
 }
 
-/* Who changes a default must not find yesterday's rows under the ids of today's. */
-static void plan_gives_a_changed_default_another_id(void **state)
-{
-    (void)state;
-    fixture with;
-    char before[17];
-    fixture_create(&with);
-    expect(&with, &(fm_plan_request){ .methods = LIST("kb") }, 1);
-    snprintf(before, sizeof before, "%s", with.plan.cases[0].id);
-    expect(&with, &(fm_plan_request){ .methods = LIST("kb"), .axes = LIST("layout=pixel") }, 1);
-    assert_string_equal(with.plan.cases[0].id, before); /* the default, said aloud */
-    fm_method_desc changed = kb_method;
-    changed.options[0].values[0] = "layer";
-    changed.options[0].values[1] = "pixel";
-    with.plugins[1].method = &changed;
-    expect(&with, &(fm_plan_request){ .methods = LIST("kb") }, 1);
-    assert_string_not_equal(with.plan.cases[0].id, before);
-    expect(&with, &(fm_plan_request){ .methods = LIST("kb"), .axes = LIST("layout=pixel") }, 1);
-    assert_string_equal(with.plan.cases[0].id, before);
-    plan_free(&with.plan);
-}
-
 static void plan_skips_with_the_reason(void **state)
 {
     (void)state;
@@ -518,7 +496,6 @@ int main(void)
         cmocka_unit_test(plan_bounds_the_number_of_cases),
         cmocka_unit_test(plan_joins_cases_that_differ_only_in_an_unused_k),
         cmocka_unit_test(plan_gives_an_option_to_the_methods_that_have_it),
-        cmocka_unit_test(plan_gives_a_changed_default_another_id),
         cmocka_unit_test(plan_skips_with_the_reason),
         cmocka_unit_test(plan_skips_what_cannot_be_culled),
         cmocka_unit_test(keys_of_a_map_that_is_not_there_are_forgotten),

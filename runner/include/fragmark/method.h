@@ -124,8 +124,8 @@ typedef enum fm_marker {
 
 /* A choice that the user may force with -a NAME=VALUE. A shader sees NAME (upper case, '-' as '_')
  * as the index of the chosen value, and NAME_VALUE as the index of each value. If all values are
- * whole numbers, NAME is the number itself. What is chosen is part of a case's id and stands in the
- * column `options`. */
+ * whole numbers, NAME is the number itself. Its value, chosen or not, is part of a case's id and
+ * stands in the column `options`. */
 typedef struct fm_option {
     const char *name; /* lower-case letters, digits, '-' and '_'; no key of the runner */
     const char *values[FM_MAX_OPTION_VALUES]; /* the first is the default; letters as in a name, or
@@ -167,7 +167,7 @@ typedef struct fm_method_desc {
                              folder and of its .so; not "common" */
     const char *title;    /* as the paper writes it, UTF-8: "K+B-Array"; needed, as the next two */
     const char *citation; /* authors, year, title, DOI */
-    const char *version;  /* changes whenever results may; a column of summary.csv */
+    const char *version;  /* changes whenever results or defaults may; a column of summary.csv */
     uint32_t traits;      /* FM_TRAIT_* */
     uint32_t features;    /* FM_FEATURE_* without which it does not run */
     uint32_t feeds;       /* FM_FEED_*; 0 is FM_FEEDS_FRAGMENTS. FM_FEED_TRIANGLES stands alone, and
