@@ -1,6 +1,8 @@
 #include "path.h"
 
+#include <errno.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 fm_status path_join(char path[FM_PATH_MAX_BYTES], const char *folder, const char *name,
@@ -12,6 +14,22 @@ fm_status path_join(char path[FM_PATH_MAX_BYTES], const char *folder, const char
     path[0] = '\0';
     return fm_fail(err, FM_INVALID, "%.64s.../%.64s: the path is longer than %d bytes", folder,
                    name, FM_PATH_MAX_BYTES - 1);
+}
+
+fm_status path_make_temporary(char path[FM_PATH_MAX_BYTES], const char *name, fm_error *err)
+{
+    char pattern[128];
+    const char *variable = getenv("TMPDIR");
+    const bool is_set = variable != NULL && variable[0] != '\0';
+    const char *folder = is_set ? variable : "/tmp";
+    snprintf(pattern, sizeof pattern, "%.100s-XXXXXX", name);
+    fm_status status = path_join(path, folder, pattern, err);
+    if (status == FM_OK && mkdtemp(path) == NULL) {
+        status = fm_fail(err, FM_IO, "%s%s: no temporary folder can be made there: %s",
+                         is_set ? "TMPDIR: " : "", folder, strerror(errno));
+        path[0] = '\0';
+    }
+    return status;
 }
 
 bool path_beside(char *path, size_t room_bytes, const char *file, const char *name)

@@ -13,6 +13,10 @@ enum { FM_PATH_MAX_BYTES = 1024 }; /* with the NUL; longer paths are refused */
 fm_status path_join(char path[FM_PATH_MAX_BYTES], const char *folder, const char *name,
                     fm_error *err);
 
+/* Makes a folder of one's own for files that nobody keeps, in TMPDIR or /tmp; its name begins with
+ * `name`. FM_IO: naming TMPDIR if it is to blame; FM_INVALID: too long. path is then "". */
+fm_status path_make_temporary(char path[FM_PATH_MAX_BYTES], const char *name, fm_error *err);
+
 /* `name` as seen from the folder of `file`: absolute names stay. false: longer than the room. */
 bool path_beside(char *path, size_t room_bytes, const char *file, const char *name);
 

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "cli.h"
 #include "model/figure_file.h"
 
@@ -101,7 +102,9 @@ fm_status figures_list(fm_figure_list *list, fm_error *err)
         const size_t length = strcspn(search, ":");
         if (length > 0 && length < sizeof folder) {
             snprintf(folder, sizeof folder, "%.*s", (int)length, search);
-            status = add_folder(list, folder, err);
+            status = file_check_folder(folder, "FRAGMARK_FIGURE_PATH", err);
+            if (status == FM_OK)
+                status = add_folder(list, folder, err);
         }
         search += length + (search[length] == ':');
     }

@@ -27,8 +27,9 @@ typedef struct recording {
     const char *name, *given_trace;
     char *const *program; /* ends with NULL; none: NULL */
     uint64_t frames, skip, seconds, width_px, height_px;
-    char folder[64]; /* temporary */
-    char trace[128], log[128], stream[FM_PATH_MAX_BYTES], told[FM_PATH_MAX_BYTES];
+    char folder[FM_PATH_MAX_BYTES]; /* temporary */
+    char trace[FM_PATH_MAX_BYTES + 16], log[FM_PATH_MAX_BYTES + 16], stream[FM_PATH_MAX_BYTES],
+        told[FM_PATH_MAX_BYTES];
     char display[16]; /* ":99" */
     pid_t server;
 } recording;
@@ -115,9 +116,9 @@ static const struct argp argp = {
 
 static fm_status open_folder(recording *r, fm_error *err)
 {
-    snprintf(r->folder, sizeof r->folder, "/tmp/fragmark-record-XXXXXX");
-    if (mkdtemp(r->folder) == NULL)
-        return fm_fail(err, FM_IO, "%s: %s", r->folder, strerror(errno));
+    const fm_status status = path_make_temporary(r->folder, "fragmark-record", err);
+    if (status != FM_OK)
+        return status;
     snprintf(r->trace, sizeof r->trace, "%s/program.trace", r->folder);
     snprintf(r->log, sizeof r->log, "%s/log", r->folder);
     const int length = snprintf(r->stream, sizeof r->stream, "%s.stream", r->name);

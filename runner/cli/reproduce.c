@@ -202,14 +202,7 @@ static fm_status write_specs(spec_files *specs, const fm_arguments *arguments,
 /* First somewhere else: the folder of the results may hold the specs of another run. */
 static fm_status open_specs(spec_files *specs, fm_error *err)
 {
-    const char *folder = getenv("TMPDIR");
-    const int length = snprintf(specs->folder, sizeof specs->folder, "%s/fragmark-specs-XXXXXX",
-                                folder != NULL && folder[0] != '\0' ? folder : "/tmp");
-    if (length < 0 || (size_t)length >= sizeof specs->folder || mkdtemp(specs->folder) == NULL) {
-        specs->folder[0] = '\0';
-        return fm_fail(err, FM_IO, "no temporary folder: %s", strerror(errno));
-    }
-    return FM_OK;
+    return path_make_temporary(specs->folder, "fragmark-specs", err);
 }
 
 static void close_specs(spec_files *specs)

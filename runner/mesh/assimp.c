@@ -1,12 +1,16 @@
 /* Formats without a reader of their own. assimp hands over its polygons as they are: its later
  * steps drop what is told of a file. */
+#include <assimp/cfileio.h>
 #include <assimp/cimport.h>
 #include <assimp/material.h>
 #include <assimp/scene.h>
 #include <inttypes.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
+#include "base/file.h"
 #include "readers.h"
 
 /* Columns 0..2 and a translation, of doubles. */
@@ -40,11 +44,11 @@ static uint32_t word_at(const unsigned char *b)
 static fm_status check_size(const char *path, fm_error *err)
 {
     unsigned char head[HEAD_BYTES] = { 0 };
-    FILE *file = fopen(path, "rb");
-    if (file == NULL || fread(head, 1, sizeof head, file) < sizeof head ||
-        fseeko(file, 0, SEEK_END) != 0) {
-        if (file != NULL)
-            fclose(file);
+    FILE *file = NULL;
+    if (file_open_stream(&file, path, err) != FM_OK)
+        return err != NULL ? err->status : FM_INVALID;
+    if (fread(head, 1, sizeof head, file) < sizeof head || fseeko(file, 0, SEEK_END) != 0) {
+        fclose(file);
         return fm_fail(err, FM_INVALID, "%s: too short to be a mesh", path);
     }
     const uint64_t size = (uint64_t)ftello(file);
@@ -59,6 +63,77 @@ static fm_status check_size(const char *path, fm_error *err)
                        "%s: it says it has %llu bytes, and has %llu: is it cut off?", path,
                        (unsigned long long)declared, (unsigned long long)size);
     return FM_OK;
+}
+
+/* What libassimp opens, which may be files that the file names: regular ones only, to be read. */
+
+static size_t file_read(struct aiFile *file, char *bytes, size_t size, size_t count)
+{
+    return fread(bytes, size, count, (FILE *)(void *)file->UserData);
+}
+
+static size_t file_write(struct aiFile *file, const char *bytes, size_t size, size_t count)
+{
+    (void)file, (void)bytes, (void)size, (void)count;
+    return 0;
+}
+
+static size_t file_tell(struct aiFile *file)
+{
+    return (size_t)ftello((FILE *)(void *)file->UserData);
+}
+
+static size_t file_size(struct aiFile *file)
+{
+    struct stat info;
+    return fstat(fileno((FILE *)(void *)file->UserData), &info) == 0 ? (size_t)info.st_size : 0;
+}
+
+static enum aiReturn file_seek(struct aiFile *file, size_t at, enum aiOrigin origin)
+{
+    static const int origins[] = {
+        [aiOrigin_SET] = SEEK_SET, [aiOrigin_CUR] = SEEK_CUR, [aiOrigin_END] = SEEK_END
+    };
+    const bool is_known =
+        origin == aiOrigin_SET || origin == aiOrigin_CUR || origin == aiOrigin_END;
+    return is_known && fseeko((FILE *)(void *)file->UserData, (off_t)at, origins[origin]) == 0
+               ? aiReturn_SUCCESS
+               : aiReturn_FAILURE;
+}
+
+static void file_flush(struct aiFile *file)
+{
+    (void)file;
+}
+
+static struct aiFile *open_file(struct aiFileIO *io, const char *path, const char *mode)
+{
+    FILE *stream = NULL;
+    struct aiFile *file = NULL;
+    (void)io;
+    if (strchr(mode, 'w') != NULL || strchr(mode, 'a') != NULL || strchr(mode, '+') != NULL ||
+        file_open_stream(&stream, path, NULL) != FM_OK)
+        return NULL;
+    file = calloc(1, sizeof *file);
+    if (file == NULL) {
+        fclose(stream);
+        return NULL;
+    }
+    *file = (struct aiFile){ .ReadProc = file_read,
+                             .WriteProc = file_write,
+                             .TellProc = file_tell,
+                             .FileSizeProc = file_size,
+                             .SeekProc = file_seek,
+                             .FlushProc = file_flush,
+                             .UserData = (aiUserData)(void *)stream };
+    return file;
+}
+
+static void close_file(struct aiFileIO *io, struct aiFile *file)
+{
+    (void)io;
+    fclose((FILE *)(void *)file->UserData);
+    free(file);
 }
 
 static affine of_node(const struct aiMatrix4x4 *m)
@@ -209,7 +284,8 @@ fm_status assimp_read(fm_polygons *polygons, const char *path, fm_error *err)
     fm_status status = check_size(path, err);
     if (status != FM_OK)
         return status;
-    const struct aiScene *file = aiImportFile(path, 0);
+    struct aiFileIO io = { .OpenProc = open_file, .CloseProc = close_file };
+    const struct aiScene *file = aiImportFileEx(path, 0, &io);
     assimp_state state = { .polygons = polygons, .file = file, .path = path, .err = err };
     placed_counts placed = { 0 };
     if (file == NULL)

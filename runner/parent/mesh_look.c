@@ -1,6 +1,5 @@
 #include "mesh_look.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -25,10 +24,7 @@ typedef struct look {
 
 static fm_status make_files(look *files)
 {
-    const char *parent = getenv("TMPDIR") != NULL ? getenv("TMPDIR") : "/tmp";
-    fm_status status = path_join(files->folder, parent, "fragmark-plan-XXXXXX", files->err);
-    if (status == FM_OK && mkdtemp(files->folder) == NULL)
-        status = fm_fail(files->err, FM_IO, "%s: %s", files->folder, strerror(errno));
+    const fm_status status = path_make_temporary(files->folder, "fragmark-plan", files->err);
     snprintf(files->request, sizeof files->request, "%s/request.json", files->folder);
     snprintf(files->result, sizeof files->result, "%s/result.json", files->folder);
     snprintf(files->log, sizeof files->log, "%s/log", files->folder);

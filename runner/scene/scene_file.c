@@ -7,6 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/file.h"
 #include "base/path.h"
 #include "base/text.h"
 
@@ -24,13 +25,20 @@ static fm_status scene_folders(fm_text_list *folders, fm_error *err)
 {
     static const char *const beside[] = { "scenes", "../share/fragmark/scenes" };
     char executable[PATH_MAX] = "", folder[PATH_MAX];
-    const char *variable = getenv("FRAGMARK_SCENE_PATH");
+    static const char name[] = "FRAGMARK_SCENE_PATH";
+    const char *variable = getenv(name);
     char *copy = strdup(variable != NULL ? variable : ""), *rest = copy;
+    fm_status status = FM_OK;
     bool is_whole = copy != NULL;
-    for (char *item; is_whole && (item = strsep(&rest, ":")) != NULL;)
-        if (*item != '\0')
-            is_whole = text_list_add(folders, item);
+    for (char *item; is_whole && status == FM_OK && (item = strsep(&rest, ":")) != NULL;) {
+        if (*item == '\0')
+            continue;
+        status = file_check_folder(item, name, err);
+        is_whole = text_list_add(folders, item);
+    }
     free(copy);
+    if (status != FM_OK)
+        return status;
     if (readlink("/proc/self/exe", executable, sizeof executable - 1) > 0)
         for (size_t i = 0; is_whole && i < sizeof beside / sizeof beside[0]; i++)
             if (path_beside(folder, sizeof folder, executable, beside[i]))

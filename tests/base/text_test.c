@@ -233,6 +233,26 @@ static void text_from_double_is_short_and_exact(void **state)
     assert_memory_equal(&again, &(double){ 1.0 / 3.0 }, sizeof again);
 }
 
+static void path_make_temporary_names_what_is_to_blame(void **state)
+{
+    (void)state;
+    char path[FM_PATH_MAX_BYTES], long_name[2 * FM_PATH_MAX_BYTES] = "/";
+    fm_error err = { 0 };
+    setenv("TMPDIR", "/nowhere", 1);
+    assert_int_equal(path_make_temporary(path, "x", &err), FM_IO);
+    assert_string_equal(err.message, "TMPDIR: /nowhere: no temporary folder can be made there: No "
+                                     "such file or directory");
+    assert_string_equal(path, "");
+    memset(long_name + 1, 'a', sizeof long_name - 2);
+    setenv("TMPDIR", long_name, 1);
+    assert_int_equal(path_make_temporary(path, "x", &err), FM_INVALID);
+    setenv("TMPDIR", "", 1); /* as if it were not set */
+    assert_int_equal(path_make_temporary(path, "x", &err), FM_OK);
+    assert_int_equal(strncmp(path, "/tmp/x-", 7), 0);
+    assert_int_equal(rmdir(path), 0);
+    unsetenv("TMPDIR");
+}
+
 static void path_beside_keeps_absolute_names(void **state)
 {
     (void)state;
@@ -393,6 +413,7 @@ int main(void)
         cmocka_unit_test(text_to_u64_takes_whole_texts_in_range),
         cmocka_unit_test(text_to_double_takes_finite_decimals),
         cmocka_unit_test(text_from_double_is_short_and_exact),
+        cmocka_unit_test(path_make_temporary_names_what_is_to_blame),
         cmocka_unit_test(path_beside_keeps_absolute_names),
         cmocka_unit_test(yaml_tree_keeps_order_and_lines),
         cmocka_unit_test(yaml_tree_reads_nothing_as_an_empty_mapping),

@@ -48,6 +48,18 @@ check figures_are_listed 0 "" "$program" list figures
 check methods_as_json 0 '"family": "control"' "$program" list methods --json
 check doctor_knows_the_machine 0 "memory_bytes" "$program" doctor --json
 
+for variable in FRAGMARK_SCENE_PATH FRAGMARK_PLUGIN_PATH; do
+    check "a_folder_of_${variable}_must_be_one" 2 "$variable: " env "$variable=/dev/zero" "$program" plan
+done
+check a_folder_of_scenes_must_be_there 2 "FRAGMARK_SCENE_PATH: /nowhere: No such file" \
+    env FRAGMARK_SCENE_PATH=/nowhere "$program" plan
+check a_folder_of_figures_must_be_one 2 "FRAGMARK_FIGURE_PATH: /dev/zero: is a device, not a folder" \
+    env FRAGMARK_FIGURE_PATH=/dev/zero "$program" list figures
+mkfifo "$here/pipe"
+check a_spec_must_be_a_file 2 "pipe: is a pipe, not a file" timeout 60 "$program" plan "$here/pipe"
+{ printf 'a: '; head -c 100000 /dev/zero | tr '\0' '['; } >"$here/deep.yml"
+check a_deep_spec_is_refused_at_once 2 "deep.yml:1: nested deeper than 16" timeout 20 "$program" plan "$here/deep.yml"
+
 check plan_lists_cases 0 "k=8" "$program" plan --method kplus-array -a k=4,8 -a n=16
 printf 'generator: mesh\nmesh: absent.obj\n' >"$here/absent.yml"
 printf 'generator: mesh\nmesh: cut.obj\n' >"$here/cut.yml"

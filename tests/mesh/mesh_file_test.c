@@ -3,7 +3,10 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 static const char horse[] = "/usr/share/glmark2/models/horse.3ds";
 static const double rounding = 1e-6; /* floats up to 1 */
@@ -270,6 +273,36 @@ static void only_regular_files_of_known_endings_are_read(void **state)
     assert_refused("", CORNERS FACE, "no reader for files that end with ''");
 }
 
+/* libassimp opens files that a file names, too. */
+static void what_a_file_names_must_be_a_file(void **state)
+{
+    (void)state;
+    char folder[] = "/tmp/fragmark-gltf-XXXXXX", pipe[64], path[64];
+    fm_mesh mesh = { 0 };
+    fm_error err = { 0 };
+    assert_non_null(mkdtemp(folder));
+    snprintf(pipe, sizeof pipe, "%s/a.bin", folder);
+    snprintf(path, sizeof path, "%s/a.gltf", folder);
+    assert_int_equal(mkfifo(pipe, 0666), 0);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(
+        "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"nodes\":[{\"mesh\":0}],\"scenes\":[{"
+        "\"nodes\":"
+        "[0]}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"accessors\":[{"
+        "\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}],\"bufferViews\":[{"
+        "\"buffer\":0,\"byteLength\":36}],\"buffers\":[{\"byteLength\":36,\"uri\":\"a.bin\"}]}",
+        file);
+    fclose(file);
+    alarm(20); /* opening a pipe waits for its other end */
+    assert_int_equal(mesh_file_read(&mesh, path, &err), FM_INVALID);
+    alarm(0);
+    assert_non_null(strstr(err.message, "a.bin"));
+    unlink(pipe);
+    unlink(path);
+    rmdir(folder);
+}
+
 static void facts_are_one_sentence(void **state)
 {
     (void)state;
@@ -301,6 +334,7 @@ int main(void)
         cmocka_unit_test(coarse_floats_are_told_or_refused),
         cmocka_unit_test(cut_files_of_other_formats_are_refused),
         cmocka_unit_test(only_regular_files_of_known_endings_are_read),
+        cmocka_unit_test(what_a_file_names_must_be_a_file),
         cmocka_unit_test(facts_are_one_sentence),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
