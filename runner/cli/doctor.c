@@ -148,7 +148,8 @@ static json_t *methods_facts(void)
     fm_error err = { 0 };
     json_t *refused = json_array(), *folder = NULL;
     int opened = 0;
-    if (plugin_list_open(&plugins, NULL, &err) != FM_OK)
+    if (plugin_list_open(&plugins, NULL, &err) != FM_OK ||
+        plugin_list_read_all(&plugins, &err) != FM_OK)
         json_array_append_new(refused, json_string(err.message));
     for (size_t i = 0; i < plugins.count; i++) {
         const fm_plugin_entry *entry = &plugins.entries[i];

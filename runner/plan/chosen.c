@@ -18,7 +18,7 @@ static bool is_control(const fm_plugin_entry *entry)
     return entry->plugin != NULL && (entry->plugin->method->traits & FM_TRAIT_CONTROL) != 0;
 }
 
-static void add_method(fm_chosen *chosen, const fm_plugin_entry *entry)
+static void add_method(fm_chosen *chosen, fm_plugin_entry *entry)
 {
     for (size_t i = 0; i < chosen->method_count; i++)
         if (chosen->methods[i] == entry)
@@ -35,21 +35,60 @@ static uint32_t chosen_feeds(const fm_chosen *chosen)
     return feeds;
 }
 
-/* Whether the method belongs to a world that the feeds are of: fragments, triangles or frames. */
+/* Whether the method belongs to a world that the feeds are of: fragments, triangles or frames. One
+ * that was refused belongs to none. */
 static bool takes_some(const fm_plugin_entry *entry, uint32_t feeds)
 {
-    const uint32_t taken = entry->plugin != NULL ? entry->plugin->method->feeds : 0;
+    if (entry->plugin == NULL)
+        return false;
+    const uint32_t taken = entry->plugin->method->feeds;
     const bool is_alone = taken == FM_FEED_FRAMES || taken == FM_FEED_TRIANGLES;
     return (feeds & (is_alone ? taken : FM_FEEDS_FRAGMENTS)) != 0;
 }
 
-/* All that are no controls, of the kind that the feeds are for. */
-static void add_all_methods(fm_chosen *chosen, const fm_plugin_list *plugins)
+/* All that can be used and are no controls, of the kind that the feeds are for. */
+static fm_status add_all_methods(fm_chosen *chosen, const fm_plugin_list *plugins, fm_error *err)
 {
     const uint32_t feeds = chosen_feeds(chosen);
-    for (size_t i = 0; i < plugins->count; i++)
+    const fm_status status = plugin_list_read_all(plugins, err);
+    for (size_t i = 0; i < plugins->count && status == FM_OK; i++)
         if (!is_control(&plugins->entries[i]) && takes_some(&plugins->entries[i], feeds))
             add_method(chosen, &plugins->entries[i]);
+    return status;
+}
+
+static fm_status add_named(fm_chosen *chosen, const fm_plugin_list *plugins, size_t i,
+                           fm_error *err)
+{
+    fm_plugin_entry *entry = NULL;
+    const char *name = chosen->selection.names[FM_LISTED_METHODS].items[i];
+    if (strcmp(name, "all") == 0)
+        return add_all_methods(chosen, plugins, err);
+    if (plugin_list_get(&entry, plugins, name, err) != FM_OK)
+        return fm_error_prefix(err, "%s", chosen->selection.origins[FM_LISTED_METHODS].items[i]);
+    add_method(chosen, entry);
+    return FM_OK;
+}
+
+/* The first chosen method that was refused; NULL: none was. */
+static const fm_plugin_entry *find_refused(const fm_chosen *chosen)
+{
+    for (size_t i = 0; i < chosen->method_count; i++)
+        if (plugin_entry_is_refused(chosen->methods[i]))
+            return chosen->methods[i];
+    return NULL;
+}
+
+/* One that can be used is enough: the others are rows that say why not. */
+static fm_status expect_usable(const fm_chosen *chosen, fm_error *err)
+{
+    if (chosen->method_count == 0)
+        return fm_fail(err, FM_INVALID, "no method was found; `list methods` shows where");
+    for (size_t i = 0; i < chosen->method_count; i++)
+        if (chosen->methods[i]->plugin != NULL)
+            return FM_OK;
+    return fm_fail(err, FM_INVALID, "method '%s' is refused: %s", chosen->methods[0]->id,
+                   chosen->methods[0]->error.message);
 }
 
 static fm_status find_methods(fm_chosen *chosen, const fm_plugin_list *plugins, fm_error *err)
@@ -58,21 +97,12 @@ static fm_status find_methods(fm_chosen *chosen, const fm_plugin_list *plugins, 
     chosen->methods = calloc(plugins->count + 1, sizeof *chosen->methods);
     if (chosen->methods == NULL)
         return no_memory(err);
-    if (names->count == 0)
-        add_all_methods(chosen, plugins);
-    for (size_t i = 0; i < names->count; i++) {
-        const fm_plugin_entry *entry = NULL;
-        if (strcmp(names->items[i], "all") == 0)
-            add_all_methods(chosen, plugins);
-        else if (plugin_list_get(&entry, plugins, names->items[i], err) == FM_OK)
-            add_method(chosen, entry);
-        else
-            return fm_error_prefix(err, "%s",
-                                   chosen->selection.origins[FM_LISTED_METHODS].items[i]);
-    }
-    if (chosen->method_count == 0)
-        return fm_fail(err, FM_INVALID, "no method was found; `list methods` shows where");
-    return FM_OK;
+    fm_status status = names->count == 0 ? add_all_methods(chosen, plugins, err) : FM_OK;
+    for (size_t i = 0; i < names->count && status == FM_OK; i++)
+        status = add_named(chosen, plugins, i, err);
+    if (status == FM_OK)
+        status = plugin_list_read(plugins, chosen->methods, chosen->method_count, err);
+    return status == FM_OK ? expect_usable(chosen, err) : status;
 }
 
 /* A list that was left open gets its default. */
@@ -178,6 +208,10 @@ static fm_status unknown_option(const fm_chosen *chosen, const fm_sweep *sweep, 
                 known[count++] = method->options[j].name;
         nearest = text_nearest(sweep->name, known, count);
     }
+    const fm_plugin_entry *refused = find_refused(chosen);
+    if (refused != NULL) /* which may have had it */
+        return fm_fail(err, FM_INVALID, "%s: no key '%.200s', and method '%s' is refused: %s",
+                       sweep->origin, sweep->name, refused->id, refused->error.message);
     return unknown(sweep->origin, "key or option of a chosen method", sweep->name, nearest, err);
 }
 

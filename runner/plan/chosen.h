@@ -13,7 +13,7 @@ typedef struct fm_chosen_scene {
 /* The counts of scenes and devices are those of their names in the selection. */
 typedef struct fm_chosen {
     fm_selection selection; /* lists that were left open hold their defaults */
-    const fm_plugin_entry **methods;
+    fm_plugin_entry **methods;
     size_t method_count;
     fm_chosen_scene *scenes;
     const fm_device_ops **devices;

@@ -151,11 +151,13 @@ static fm_status add_cell(const table_job *job, const table_row *row, size_t ind
 static fm_status add_row(const table_job *job, const fm_yaml *from, const fm_plugin_list *plugins)
 {
     const char *id;
-    const fm_plugin_entry *entry = NULL;
+    fm_plugin_entry *entry = NULL;
     table_row row = { .errata = yaml_tree_find(from, "errata") };
     fm_status status = field_text(&id, from, "method", true, &job->at);
     if (status == FM_OK)
         status = plugin_list_get(&entry, plugins, id, job->at.err);
+    if (status == FM_OK)
+        status = plugin_list_read(plugins, &entry, 1, job->at.err);
     if (status == FM_OK && entry->plugin == NULL)
         status = fm_fail(job->at.err, entry->error.status, "%s", entry->error.message);
     if (status == FM_OK)

@@ -1,5 +1,6 @@
 #include <dirent.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -30,12 +31,12 @@ static fm_status add_entry(fm_plugin_list *list, const char *id, const char *pat
     fm_plugin_entry *entry = &grown[list->count++];
     *entry = (fm_plugin_entry){ 0 };
     snprintf(entry->id, sizeof entry->id, "%s", id);
-    /* A refusal stays in the entry. */
-    (void)plugin_open(&entry->plugin, path, list->common_folder, &entry->error);
+    snprintf(entry->path, sizeof entry->path, "%s", path);
     return FM_OK;
 }
 
-/* Opens folder/id/id.so, unless there is none, or an earlier folder had it. */
+/* Takes folder/id/id.so, unless there is none, or an earlier folder had it. A link that leads
+ * nowhere is there. */
 static fm_status scan_entry(fm_plugin_list *list, const char *folder, const char *id, fm_error *err)
 {
     path_text path, file;
@@ -43,7 +44,7 @@ static fm_status scan_entry(fm_plugin_list *list, const char *folder, const char
     if (id[0] == '.' || strlen(id) >= room || plugin_list_find(list, id) != NULL)
         return FM_OK;
     snprintf(file, sizeof file, "%s/%s.so", id, id);
-    if (!join(path, folder, file) || access(path, F_OK) != 0)
+    if (!join(path, folder, file) || faccessat(AT_FDCWD, path, F_OK, AT_SYMLINK_NOFOLLOW) != 0)
         return FM_OK;
     return add_entry(list, id, path, err);
 }
@@ -157,7 +158,7 @@ void plugin_list_close(fm_plugin_list *list)
     *list = (fm_plugin_list){ 0 };
 }
 
-const fm_plugin_entry *plugin_list_find(const fm_plugin_list *list, const char *id)
+fm_plugin_entry *plugin_list_find(const fm_plugin_list *list, const char *id)
 {
     for (size_t i = 0; i < list->count; i++)
         if (strcmp(list->entries[i].id, id) == 0)
@@ -165,7 +166,50 @@ const fm_plugin_entry *plugin_list_find(const fm_plugin_list *list, const char *
     return NULL;
 }
 
-fm_status plugin_list_get(const fm_plugin_entry **entry, const fm_plugin_list *list, const char *id,
+bool plugin_entry_is_refused(const fm_plugin_entry *entry)
+{
+    return entry->plugin == NULL && entry->error.status != FM_OK;
+}
+
+fm_status plugin_load_entries(const fm_plugin_list *list, fm_plugin_entry *const *entries,
+                              size_t count, fm_error *err)
+{
+    (void)err;
+    for (size_t i = 0; i < count; i++) /* a refusal stays in the entry */
+        (void)plugin_open(&entries[i]->plugin, entries[i]->path, list->common_folder,
+                          &entries[i]->error);
+    return FM_OK;
+}
+
+fm_status plugin_list_read(const fm_plugin_list *list, fm_plugin_entry *const *entries,
+                           size_t count, fm_error *err)
+{
+    fm_plugin_reader *reader = list->reader != NULL ? list->reader : plugin_load_entries;
+    fm_plugin_entry **unread = calloc(count + 1, sizeof *unread);
+    size_t unread_count = 0;
+    if (unread == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "no memory for %zu plugins", count);
+    for (size_t i = 0; i < count; i++)
+        if (entries[i]->plugin == NULL && !plugin_entry_is_refused(entries[i]))
+            unread[unread_count++] = entries[i];
+    const fm_status status = unread_count > 0 ? reader(list, unread, unread_count, err) : FM_OK;
+    free(unread);
+    return status;
+}
+
+fm_status plugin_list_read_all(const fm_plugin_list *list, fm_error *err)
+{
+    fm_plugin_entry **all = calloc(list->count + 1, sizeof *all);
+    if (all == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "no memory for %zu plugins", list->count);
+    for (size_t i = 0; i < list->count; i++)
+        all[i] = &list->entries[i];
+    const fm_status status = plugin_list_read(list, all, list->count, err);
+    free(all);
+    return status;
+}
+
+fm_status plugin_list_get(fm_plugin_entry **entry, const fm_plugin_list *list, const char *id,
                           fm_error *err)
 {
     *entry = plugin_list_find(list, id);
@@ -183,17 +227,28 @@ fm_status plugin_list_get(const fm_plugin_entry **entry, const fm_plugin_list *l
     return fm_fail(err, FM_INVALID, "method '%s': no such plugin; nearest is '%s'", id, nearest);
 }
 
-static bool is_floor(const fm_method_desc *method, uint32_t feed)
+static bool is_floor(const fm_plugin_entry *entry, uint32_t feed)
 {
-    return (method->traits & FM_TRAIT_FLOOR) != 0 && (method_feeds(method) & feed) != 0;
+    return entry->plugin != NULL && (entry->plugin->method->traits & FM_TRAIT_FLOOR) != 0 &&
+           (method_feeds(entry->plugin->method) & feed) != 0;
 }
 
 fm_status plugin_list_floor(const fm_plugin **plugin, const fm_plugin_list *list, uint32_t feed,
                             fm_error *err)
 {
+    fm_plugin_entry *usual = plugin_list_find(list, feed_info(feed)->floor);
+    fm_status status = FM_OK;
     *plugin = NULL;
+    if (usual != NULL)
+        status = plugin_list_read(list, &usual, 1, err);
+    if (status == FM_OK && (usual == NULL || !is_floor(usual, feed)))
+        status = plugin_list_read_all(list, err);
+    if (status != FM_OK)
+        return status;
+    if (usual != NULL && is_floor(usual, feed))
+        *plugin = usual->plugin;
     for (size_t i = 0; i < list->count && *plugin == NULL; i++)
-        if (list->entries[i].plugin != NULL && is_floor(list->entries[i].plugin->method, feed))
+        if (is_floor(&list->entries[i], feed))
             *plugin = list->entries[i].plugin;
     if (*plugin == NULL)
         return fm_fail(err, FM_INVALID, "no plugin is the floor of feed %s: is '%s' built?",

@@ -15,7 +15,8 @@ void kit_open(scene_kit *kit, fm_device *device)
 {
     fm_error err = { .message = "" };
     *kit = (scene_kit){ .device = device };
-    if (plugin_list_open(&kit->plugins, NULL, &err) != FM_OK)
+    if (plugin_list_open(&kit->plugins, NULL, &err) != FM_OK ||
+        plugin_list_read_all(&kit->plugins, &err) != FM_OK)
         fail_msg("%s", err.message);
 }
 

@@ -99,17 +99,31 @@ static void plan_of_nothing_is_every_method_but_controls(void **state)
     (void)state;
     fixture with;
     fixture_create(&with);
-    expect(&with, &(fm_plan_request){ 0 }, 3);
+    expect(&with, &(fm_plan_request){ 0 }, 2); /* and but the one that is broken */
     assert_string_equal(with.plan.cases[0].method, "ab");
-    assert_string_equal(with.plan.cases[1].method, "broken");
-    assert_string_equal(with.plan.cases[1].skip, "broken.so: abi");
-    assert_int_equal(with.plan.cases[1].skip_status, FM_CASE_PLUGIN_ERROR);
-    assert_string_equal(with.plan.cases[2].method, "kb");
-    assert_string_equal(with.plan.cases[2].scene, "layers");
-    assert_string_equal(with.plan.cases[2].device, "vulkan");
-    assert_string_equal(with.plan.cases[2].feed, "raster");
+    assert_string_equal(with.plan.cases[1].method, "kb");
+    assert_string_equal(with.plan.cases[1].scene, "layers");
+    assert_string_equal(with.plan.cases[1].device, "vulkan");
+    assert_string_equal(with.plan.cases[1].feed, "raster");
     assert_int_equal(with.plan.launches, 5);
-    expect(&with, &(fm_plan_request){ .methods = LIST("all", "null", "kb") }, 4);
+    expect(&with, &(fm_plan_request){ .methods = LIST("all", "null", "kb") }, 3);
+    plan_free(&with.plan);
+}
+
+static void plan_tells_a_refused_method_that_is_named(void **state)
+{
+    (void)state;
+    fixture with;
+    fixture_create(&with);
+    expect(&with, &(fm_plan_request){ .methods = LIST("broken", "kb") }, 2);
+    assert_string_equal(with.plan.cases[0].method, "broken");
+    assert_string_equal(with.plan.cases[0].skip, "broken.so: abi");
+    assert_int_equal(with.plan.cases[0].skip_status, FM_CASE_PLUGIN_ERROR);
+    expect_refused(&with, &(fm_plan_request){ .methods = LIST("broken") },
+                   "method 'broken' is refused: broken.so: abi");
+    expect_refused(&with,
+                   &(fm_plan_request){ .methods = LIST("broken", "kb"), .axes = LIST("pag=2") },
+                   "no key 'pag', and method 'broken' is refused: broken.so: abi");
     plan_free(&with.plan);
 }
 
@@ -472,6 +486,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(plan_of_nothing_is_every_method_but_controls),
+        cmocka_unit_test(plan_tells_a_refused_method_that_is_named),
         cmocka_unit_test(plan_launches_simulated_cases_once),
         cmocka_unit_test(plan_expands_lists_and_ranges),
         cmocka_unit_test(plan_crosses_axes_with_the_last_one_fastest),

@@ -27,6 +27,14 @@ static void assert_plugin_refused(const char *id, const char *part)
         fail_msg("'%s' is not in: %s", part, err.message);
 }
 
+/* Finds plugins, and loads all of them. */
+static void open_list(fm_plugin_list *list, const char *const *folders)
+{
+    fm_error err = { 0 };
+    if (plugin_list_open(list, folders, &err) != FM_OK || plugin_list_read_all(list, &err) != FM_OK)
+        fail_msg("%s", err.message);
+}
+
 static void plugin_open_takes_a_good_plugin(void **state)
 {
     (void)state;
@@ -129,9 +137,8 @@ static void plugin_list_holds_good_and_refused_plugins(void **state)
     (void)state;
     const char *const folders[] = { FM_TEST_PLUGINS, NULL };
     fm_plugin_list list;
-    fm_error err = { 0 };
     unsetenv("FRAGMARK_PLUGIN_PATH");
-    assert_int_equal(plugin_list_open(&list, folders, &err), FM_OK);
+    open_list(&list, folders);
     assert_int_equal(list.count, 12);
     for (size_t i = 1; i < list.count; i++)
         assert_true(strcmp(list.entries[i - 1].id, list.entries[i].id) < 0);
@@ -151,7 +158,7 @@ static void plugin_list_takes_the_first_folder_of_an_id(void **state)
     const char *const folders[] = { FM_TEST_PLUGINS, NULL };
     fm_plugin_list list;
     setenv("FRAGMARK_PLUGIN_PATH", ":" FM_TEST_PLUGINS "/.::", 1);
-    assert_int_equal(plugin_list_open(&list, folders, NULL), FM_OK);
+    open_list(&list, folders);
     assert_int_equal(list.count, 12);
     assert_string_equal(plugin_list_find(&list, "good")->plugin->folder, FM_TEST_PLUGINS "/good");
     plugin_list_close(&list);
@@ -162,10 +169,10 @@ static void plugin_list_get_names_the_nearest_id(void **state)
     (void)state;
     const char *const folders[] = { FM_TEST_PLUGINS, NULL };
     fm_plugin_list list;
-    const fm_plugin_entry *entry;
+    fm_plugin_entry *entry;
     fm_error err;
     unsetenv("FRAGMARK_PLUGIN_PATH");
-    assert_int_equal(plugin_list_open(&list, folders, NULL), FM_OK);
+    open_list(&list, folders);
     assert_int_equal(plugin_list_get(&entry, &list, "good", &err), FM_OK);
     assert_int_equal(plugin_list_get(&entry, &list, "goood", &err), FM_INVALID);
     assert_non_null(strstr(err.message, "nearest is 'good'"));
@@ -181,7 +188,7 @@ static void plugin_list_without_a_floor_says_so(void **state)
     const fm_plugin *floor;
     fm_error err;
     unsetenv("FRAGMARK_PLUGIN_PATH");
-    assert_int_equal(plugin_list_open(&list, folders, NULL), FM_OK);
+    open_list(&list, folders);
     assert_int_equal(plugin_list_floor(&floor, &list, FM_FEED_RASTER, &err), FM_INVALID);
     assert_null(floor);
     plugin_list_close(&list);
@@ -221,7 +228,7 @@ static void a_shader_of_another_method_lies_beside_the_runners_too(void **state)
     make_lender(root);
     const char *const folders[] = { FM_TEST_PLUGINS, root, NULL };
     unsetenv("FRAGMARK_PLUGIN_PATH");
-    assert_int_equal(plugin_list_open(&list, folders, NULL), FM_OK);
+    open_list(&list, folders);
     assert_non_null(plugin_list_find(&list, "borrower")->plugin);
     plugin_list_close(&list);
     snprintf(command, sizeof command, "rm -r %s", root);
@@ -245,7 +252,7 @@ static void plugin_list_finds_the_runners_shaders(void **state)
     assert_int_equal(system(command), 0);
     const char *const folders[] = { FM_TEST_PLUGINS, root, NULL };
     unsetenv("FRAGMARK_PLUGIN_PATH");
-    assert_int_equal(plugin_list_open(&list, folders, NULL), FM_OK);
+    open_list(&list, folders);
     assert_string_equal(list.common_folder, path);
     plugin_list_close(&list);
     snprintf(command, sizeof command, "rm -r %s", root);
