@@ -3,6 +3,7 @@
 
 #include "base/text.h"
 #include "cli/cli.h"
+#include "describe/describe.h"
 #include "devices.h"
 #include "worker/worker.h"
 
@@ -73,6 +74,8 @@ int main(int argc, char **argv)
     const char *name = argv[1];
     if (strcmp(name, "worker") == 0 && argc == 4)
         return worker_main(argv[2], argv[3], &program_devices);
+    if (strcmp(name, "describe") == 0 && argc >= 4)
+        return describe_main(argv[2], argv + 3);
     if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0 || strcmp(name, "help") == 0) {
         write_help(stdout);
         return CLI_DONE;

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "cli.h"
+#include "describe/describe.h"
 
 enum {
     KEY_METHOD = 256,
@@ -234,11 +235,35 @@ fm_status arguments_expand(fm_plan *plan, const fm_plugin_list *plugins,
     return plan_expand(plan, &request, plugins, err);
 }
 
+fm_status cli_find_plugins(fm_plugin_list *plugins, const fm_text_list *folders, fm_error *err)
+{
+    const fm_status status = plugin_list_open(plugins, text_list_items(folders), err);
+    plugins->reader = describe_plugins;
+    return status;
+}
+
+static bool plan_has(const fm_plan *plan, const char *method)
+{
+    for (size_t i = 0; i < plan->count; i++)
+        if (strcmp(plan->cases[i].method, method) == 0)
+            return true;
+    return false;
+}
+
+void cli_tell_left_out(FILE *talk, const fm_plan *plan, const fm_plugin_list *plugins)
+{
+    for (size_t i = 0; i < plugins->count; i++)
+        if (plugin_entry_is_refused(&plugins->entries[i]) &&
+            !plan_has(plan, plugins->entries[i].id))
+            fprintf(talk, "left out: method '%s' is refused: %s\n", plugins->entries[i].id,
+                    plugins->entries[i].error.message);
+}
+
 fm_status arguments_plan(fm_plan *plan, fm_plugin_list *plugins, const fm_arguments *arguments,
                          const char *const *specs, fm_error *err)
 {
     *plan = (fm_plan){ 0 };
-    fm_status status = plugin_list_open(plugins, text_list_items(&arguments->plugin_folders), err);
+    fm_status status = cli_find_plugins(plugins, &arguments->plugin_folders, err);
     for (size_t i = 0; status == FM_OK && (i == 0 || specs[i] != NULL); i++) {
         fm_plan one = { 0 };
         status = arguments_expand(&one, plugins, arguments, specs[i], err);
@@ -250,5 +275,7 @@ fm_status arguments_plan(fm_plan *plan, fm_plugin_list *plugins, const fm_argume
     }
     if (arguments->has_seed)
         plan->seed = arguments->seed;
+    if (status == FM_OK)
+        cli_tell_left_out(arguments->cli->talk, plan, plugins);
     return status;
 }

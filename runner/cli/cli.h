@@ -91,7 +91,12 @@ void arguments_free(fm_arguments *arguments);
 fm_status arguments_plan(fm_plan *plan, fm_plugin_list *plugins, const fm_arguments *arguments,
                          const char *const *specs, fm_error *err);
 
-/* One spec alone, for plugins that are open. */
+/* Finds the plugins; folders: those of --plugin-dir. None is ever loaded into this process. */
+fm_status cli_find_plugins(fm_plugin_list *plugins, const fm_text_list *folders, fm_error *err);
+/* A line for each plugin that is refused and no case of the plan: it was to be one of all. */
+void cli_tell_left_out(FILE *talk, const fm_plan *plan, const fm_plugin_list *plugins);
+
+/* One spec alone, for plugins that were found. */
 fm_status arguments_expand(fm_plan *plan, const fm_plugin_list *plugins,
                            const fm_arguments *arguments, const char *spec, fm_error *err);
 

@@ -148,8 +148,11 @@ static json_t *methods_facts(void)
     fm_error err = { 0 };
     json_t *refused = json_array(), *folder = NULL;
     int opened = 0;
-    if (plugin_list_open(&plugins, NULL, &err) != FM_OK ||
-        plugin_list_read_all(&plugins, &err) != FM_OK)
+    const fm_text_list none = { 0 };
+    fm_status status = cli_find_plugins(&plugins, &none, &err);
+    if (status == FM_OK)
+        status = plugin_list_read_all(&plugins, &err);
+    if (status != FM_OK)
         json_array_append_new(refused, json_string(err.message));
     for (size_t i = 0; i < plugins.count; i++) {
         const fm_plugin_entry *entry = &plugins.entries[i];
@@ -190,13 +193,14 @@ static json_t *figures_facts(void)
 static json_t *facts_json(const fm_device_list *devices)
 {
     char program[FM_PATH_MAX_BYTES] = "", report[FM_PATH_MAX_BYTES];
+    json_t *methods = methods_facts(); /* before drivers have threads */
     if (program_folder(program, NULL) != FM_OK)
         snprintf(program, sizeof program, "unknown");
     return json_pack("{s:s, s:o, s:o, s:b, s:s, s:o, s:o, s:o, s:s?}", "fragmark", FM_VERSION,
                      "machine", machine_facts(), "devices", devices_json(devices),
                      "validation_layer", (int)has_validation_layer(), "program", program, "methods",
-                     methods_facts(), "scenes", scenes_facts(), "figures", figures_facts(),
-                     "report", report_find(report) ? report : NULL);
+                     methods, "scenes", scenes_facts(), "figures", figures_facts(), "report",
+                     report_find(report) ? report : NULL);
 }
 
 static const char *text_of(const json_t *object, const char *key)

@@ -67,8 +67,11 @@ static int list_methods(const list_arguments *arguments)
     fm_error err = { 0 };
     const fm_cli *cli = arguments->cli;
     json_t *rows = json_array();
-    if (plugin_list_open(&plugins, text_list_items(&arguments->plugin_folders), &err) != FM_OK ||
-        plugin_list_read_all(&plugins, &err) != FM_OK) {
+    fm_status status = cli_find_plugins(&plugins, &arguments->plugin_folders, &err);
+    if (status == FM_OK)
+        status = plugin_list_read_all(&plugins, &err);
+    if (status != FM_OK) {
+        plugin_list_close(&plugins);
         json_decref(rows);
         return cli_fail(cli, &err);
     }

@@ -323,7 +323,7 @@ static fm_status make_plan(fm_plan *plan, fm_plugin_list *plugins, const fm_argu
     if (specs->paths.count > 0)
         return arguments_plan(plan, plugins, arguments, text_list_items(&specs->paths), err);
     plan->launches = 1;
-    return plugin_list_open(plugins, text_list_items(&arguments->plugin_folders), err);
+    return cli_find_plugins(plugins, &arguments->plugin_folders, err);
 }
 
 static int run_specs(const spec_files *specs, const fm_arguments *arguments)

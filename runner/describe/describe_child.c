@@ -1,0 +1,243 @@
+/* The process that describes plugins, and those it starts:
+ *
+ *   describe_main  starts a keeper for each plugin, a few at a time
+ *   keeper         one plugin: starts its loader and watches the clock
+ *   loader         loads the plugin, within limits, and says what it found in memory that it shares
+ *                  with its keeper
+ *
+ * A plugin that ends its parent ends its keeper, and the others are described. What a loader leaves
+ * running ends with the process that describes (process/process.h). */
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "answer.h"
+#include "base/clock.h"
+#include "describe.h"
+
+enum {
+    AT_A_TIME = 4,
+    WALL_S = 5,      /* of a loader */
+    PROCESSOR_S = 2, /* the same */
+    OPEN_FILES = 64,
+    FILE_BYTES = 1 << 20,
+};
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+/* Address space; sanitizers map terabytes. */
+static const rlim_t memory_bytes = (rlim_t)2 << 30;
+#else
+static const rlim_t memory_bytes = RLIM_INFINITY;
+#endif
+
+static void limit(int resource, rlim_t soft, rlim_t hard)
+{
+    const struct rlimit both = { soft, hard };
+    setrlimit(resource, &both);
+}
+
+/* Holds for the plugin's code, too. */
+static void bind_hands(void)
+{
+    const int nowhere = open("/dev/null", O_RDWR);
+    setsid(); /* what it sends to its group stays with it */
+    for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++)
+        dup2(nowhere, fd);
+    close_range(STDERR_FILENO + 1, ~0u, 0);
+    limit(RLIMIT_CORE, 0, 0);
+    limit(RLIMIT_CPU, PROCESSOR_S, PROCESSOR_S + 1);
+    limit(RLIMIT_AS, memory_bytes, memory_bytes);
+    limit(RLIMIT_FSIZE, FILE_BYTES, FILE_BYTES);
+    limit(RLIMIT_NOFILE, OPEN_FILES, OPEN_FILES);
+}
+
+static void describe_loaded(answer *to, const fm_plugin *plugin)
+{
+    fm_text bytes = { 0 };
+    fm_error err = { 0 };
+    const char *name = plugin_file_name(plugin->path);
+    to->head.kind = ANSWER_CHECKING;
+    fm_status status = plugin_check(plugin->method, name, &err);
+    if (status == FM_OK && description_write(&bytes, plugin->method, &err) != FM_OK)
+        status = fm_error_prefix(&err, "%s", name);
+    if (status != FM_OK) {
+        answer_set_text(to, ANSWER_REFUSED, err.message);
+        return;
+    }
+    memcpy(to->bytes, bytes.bytes, bytes.length);
+    to->head = (answer_head){ .kind = ANSWER_DESCRIBED, .count = (uint32_t)bytes.length };
+}
+
+/* No destructor of the plugin runs: the process ends as it is. */
+static _Noreturn void load(answer *to, const char *path)
+{
+    fm_plugin *plugin = NULL;
+    fm_error err = { 0 };
+    bind_hands();
+    to->head.kind = ANSWER_LOADING;
+    if (plugin_load(&plugin, path, &err) == FM_OK)
+        describe_loaded(to, plugin);
+    else
+        answer_set_text(to, ANSWER_NOT_LOADED, err.message);
+    _exit(0);
+}
+
+/* How a loader ended that has no answer. */
+static void tell_end(answer *to, const char *path, int wait_status, bool is_late)
+{
+    char how[96], text[FM_PATH_MAX_BYTES + 256];
+    const bool is_checking = to->head.kind == ANSWER_CHECKING;
+    if (is_late)
+        snprintf(how, sizeof how, "no end after %d s", WALL_S);
+    else if (WIFSIGNALED(wait_status) && WTERMSIG(wait_status) == SIGXCPU)
+        snprintf(how, sizeof how, "more than %d s of processor time", PROCESSOR_S);
+    else if (WIFSIGNALED(wait_status)) {
+        const char *name = sigabbrev_np(WTERMSIG(wait_status));
+        snprintf(how, sizeof how, "killed by SIG%s", name != NULL ? name : "?");
+    } else
+        snprintf(how, sizeof how, "it ended the process, status %d", WEXITSTATUS(wait_status));
+    snprintf(text, sizeof text, "%s: cannot be used: while %s: %s", plugin_file_name(path),
+             is_checking ? "its descriptor was read (a pointer to nowhere?)"
+                         : "it was loaded (its constructors ran)",
+             how);
+    answer_set_text(to, ANSWER_ENDED, text);
+}
+
+/* Writes a whole answer; a full disk leaves none, which the reader sees. */
+static void put_answer(int file, size_t slot, const answer *from)
+{
+    const size_t room = sizeof from->bytes;
+    const size_t count = from->head.count < room ? from->head.count : room;
+    const char *bytes = (const char *)from;
+    size_t done = 0;
+    while (done < sizeof from->head + count) {
+        const ssize_t written = pwrite(file, bytes + done, sizeof from->head + count - done,
+                                       (off_t)(slot * ANSWER_SLOT_BYTES + done));
+        if (written <= 0 && errno != EINTR)
+            return;
+        done += written > 0 ? (size_t)written : 0;
+    }
+}
+
+/* Waits until a child has ended, at most WALL_S; it is not reaped. */
+static bool ends_in_time(pid_t pid)
+{
+    const struct timespec pause = { .tv_nsec = 1000000 };
+    const double deadline = clock_s() + WALL_S;
+    while (clock_s() < deadline) {
+        siginfo_t info = { 0 };
+        const int failed = waitid(P_PID, (id_t)pid, &info, WEXITED | WNOHANG | WNOWAIT);
+        if (info.si_pid == pid || (failed != 0 && errno != EINTR))
+            return true;
+        nanosleep(&pause, NULL);
+    }
+    return false;
+}
+
+static _Noreturn void keep(int file, size_t slot, const char *path)
+{
+    int wait_status = 0;
+    answer *shared =
+        mmap(NULL, sizeof *shared, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (shared == MAP_FAILED)
+        _exit(1);
+    const pid_t loader = fork();
+    if (loader == 0)
+        load(shared, path);
+    if (loader < 0)
+        _exit(1);
+    const bool is_late = !ends_in_time(loader);
+    kill(loader, SIGKILL);
+    kill(-loader, SIGKILL);
+    while (waitpid(loader, &wait_status, 0) < 0 && errno == EINTR)
+        continue;
+    if (shared->head.kind < ANSWER_ENDED || shared->head.kind > ANSWER_DESCRIBED)
+        tell_end(shared, path, wait_status, is_late);
+    put_answer(file, slot, shared);
+    _exit(0);
+}
+
+/* A plugin that killed its keeper. */
+static void tell_lost(int file, size_t slot, const char *path, int wait_status)
+{
+    answer *lost = malloc(sizeof *lost);
+    char text[FM_PATH_MAX_BYTES + 128];
+    if (lost == NULL)
+        return;
+    snprintf(text, sizeof text, "%s: cannot be used: it ended the process that watched it (%s %d)",
+             plugin_file_name(path), WIFSIGNALED(wait_status) ? "signal" : "status",
+             WIFSIGNALED(wait_status) ? WTERMSIG(wait_status) : WEXITSTATUS(wait_status));
+    answer_set_text(lost, ANSWER_ENDED, text);
+    put_answer(file, slot, lost);
+    free(lost);
+}
+
+/* The keepers that are at work. */
+typedef struct keepers {
+    int file;
+    char *const *plugins;
+    pid_t pids[AT_A_TIME]; /* 0: free */
+    size_t slots[AT_A_TIME];
+} keepers;
+
+static size_t find_keeper(const keepers *of, pid_t pid)
+{
+    size_t i = 0;
+    while (i < AT_A_TIME && of->pids[i] != pid)
+        i++;
+    return i;
+}
+
+static bool start_keeper(keepers *of, size_t slot)
+{
+    const size_t place = find_keeper(of, 0);
+    const pid_t pid = fork();
+    if (pid == 0)
+        keep(of->file, slot, of->plugins[slot]);
+    if (pid < 0)
+        return false;
+    of->pids[place] = pid;
+    of->slots[place] = slot;
+    return true;
+}
+
+static void await_keeper(keepers *of)
+{
+    int wait_status;
+    pid_t pid;
+    do
+        pid = waitpid(-1, &wait_status, 0);
+    while (pid < 0 && errno == EINTR);
+    const size_t place = find_keeper(of, pid);
+    if (place == AT_A_TIME)
+        return;
+    of->pids[place] = 0;
+    if (wait_status != 0)
+        tell_lost(of->file, of->slots[place], of->plugins[of->slots[place]], wait_status);
+}
+
+int describe_main(const char *out, char *const *plugins)
+{
+    keepers of = { .file = open(out, O_WRONLY | O_CLOEXEC), .plugins = plugins };
+    size_t next = 0, running = 0;
+    bool can_start = true;
+    if (of.file < 0)
+        return 1;
+    while (running > 0 || (can_start && plugins[next] != NULL)) {
+        if (can_start && running < AT_A_TIME && plugins[next] != NULL) {
+            can_start = start_keeper(&of, next++);
+            running += can_start;
+            continue;
+        }
+        await_keeper(&of);
+        running--;
+    }
+    return can_start ? 0 : 1;
+}
