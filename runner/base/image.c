@@ -9,6 +9,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "file.h"
 #include "text.h"
 
 static const char magic[] = "fragmark rgba32f ";
@@ -144,10 +145,11 @@ fm_status image_read(fm_image **image, const char *path, fm_error *err)
     uint32_t size_px[2] = { 0 };
     fm_image *made = NULL;
     *image = NULL;
-    FILE *file = fopen(path, "rb");
-    if (file == NULL)
-        return fm_fail(err, FM_IO, "%s: %s", path, strerror(errno));
-    fm_status status = read_header(size_px, file, path, err);
+    FILE *file = NULL;
+    fm_status status = file_open_stream(&file, path, err);
+    if (status != FM_OK)
+        return status;
+    status = read_header(size_px, file, path, err);
     if (status != FM_OK)
         goto out;
     status = image_create(&made, size_px[0], size_px[1], err);

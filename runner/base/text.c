@@ -2,7 +2,6 @@
 
 #include <ctype.h>
 #include <errno.h>
-#include <fcntl.h>
 #include <float.h>
 #include <locale.h>
 #include <math.h>
@@ -12,6 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+
+#include "file.h"
 
 enum { WORD_MAX = 127 }; /* longest word that text_nearest compares */
 
@@ -135,7 +136,7 @@ const char *text_shared(const char *text)
     return copy;
 }
 
-/* Reads to the end, so that pipes and /proc files, whose size is not known, work too. */
+/* Reads to the end, so that /proc files, whose size is not known, work too. */
 static fm_status read_stream(fm_text *text, FILE *file, const char *path, size_t limit_bytes,
                              fm_error *err)
 {
@@ -161,10 +162,11 @@ fm_status text_read_file(char **bytes, size_t *count, const char *path, size_t l
     fm_text text = { 0 };
     *bytes = NULL;
     *count = 0;
-    FILE *file = fopen(path, "rb");
-    if (file == NULL)
-        return fm_fail(err, FM_IO, "%s: %s", path, strerror(errno));
-    const fm_status status = read_stream(&text, file, path, limit_bytes, err);
+    FILE *file = NULL;
+    fm_status status = file_open_stream(&file, path, err);
+    if (status != FM_OK)
+        return status;
+    status = read_stream(&text, file, path, limit_bytes, err);
     if (status == FM_OK) {
         *bytes = text.bytes;
         *count = text.length;
@@ -191,17 +193,16 @@ static bool write_all(int file, const char *bytes, size_t count)
 
 fm_status text_write_file(const char *path, const char *bytes, size_t count, fm_error *err)
 {
-    fm_status status = FM_OK;
     int file = -1;
     fm_text partial = { 0 };
     text_add(&partial, "%s.partial", path);
     if (partial.failed)
         return fm_fail(err, FM_NO_MEMORY, "%s: no memory for its name", path);
-    file = open(partial.bytes, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (file < 0) {
-        status = fm_fail(err, FM_IO, "%s: %s", partial.bytes, strerror(errno));
+    fm_status status = file_check_replaceable(path, err);
+    if (status == FM_OK)
+        status = file_create(&file, partial.bytes, err);
+    if (status != FM_OK)
         goto out;
-    }
     int failure = write_all(file, bytes, count) && fsync(file) == 0 ? 0 : errno;
     if (close(file) != 0 && failure == 0)
         failure = errno;

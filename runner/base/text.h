@@ -40,10 +40,12 @@ void text_list_free(fm_text_list *list);
  * NULL: no memory. For one thread. */
 const char *text_shared(const char *text);
 
-/* A whole file, NUL-terminated, at most limit_bytes. The caller frees *bytes. */
+/* A whole regular file (file.h), NUL-terminated. The caller frees *bytes. FM_INVALID, too: it is
+ * larger than limit_bytes. */
 fm_status text_read_file(char **bytes, size_t *count, const char *path, size_t limit_bytes,
                          fm_error *err);
-/* Writes path.partial, flushes it to disk and renames it: never half a file. */
+/* Writes path.partial, flushes it to disk and renames it: never half a file, and never in the place
+ * of what is no file. */
 fm_status text_write_file(const char *path, const char *bytes, size_t count, fm_error *err);
 
 /* JSON and HTML take UTF-8 only: no surrogates, nothing overlong. */

@@ -2,7 +2,8 @@
  *
  * Refused with FM_INVALID and "path:line: ...": syntax errors, more than one document, aliases (so
  * that no file unfolds to more than it holds), duplicate keys, keys that are not plain texts, NUL
- * bytes, and files beyond the limits below. */
+ * bytes, and files beyond the limits below, which hold while a file is parsed: whatever it holds is
+ * read or refused in well under a second. */
 #ifndef FM_YAML_TREE_H
 #define FM_YAML_TREE_H
 
@@ -16,6 +17,7 @@ enum {
     FM_YAML_MAX_DEPTH = 16,
     FM_YAML_MAX_NODES = 65536,
     FM_YAML_MAX_KEYS = 1024, /* of one mapping */
+    FM_YAML_MAX_DIRECTIVES = 8,
 };
 
 typedef enum fm_yaml_kind {

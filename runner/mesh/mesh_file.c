@@ -1,12 +1,11 @@
 #include "mesh_file.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/file.h"
 #include "mesh_build.h"
 #include "readers.h"
 
@@ -25,14 +24,14 @@ static const struct {
 };
 enum { FORMAT_COUNT = sizeof formats / sizeof formats[0] };
 
+/* Before libassimp opens it. */
 static fm_status check_file(const char *path, fm_error *err)
 {
-    struct stat info;
-    if (stat(path, &info) != 0 || access(path, R_OK) != 0)
-        return fm_fail(err, FM_IO, "%s: %s", path, strerror(errno));
-    if (!S_ISREG(info.st_mode))
-        return fm_fail(err, FM_INVALID, "%s: not a regular file", path);
-    return FM_OK;
+    int fd = -1;
+    const fm_status status = file_open(&fd, NULL, path, err);
+    if (status == FM_OK)
+        close(fd);
+    return status;
 }
 
 static fm_status read_own(fm_polygons *polygons, file_reader *read, const char *path, fm_error *err)

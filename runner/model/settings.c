@@ -5,8 +5,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <xxhash.h>
+
+#include "base/file.h"
 
 enum { DEFAULT_R = 4, READ_BYTES = 65536 };
 static const double fragments_max = 1099511627776.0; /* 2^40 */
@@ -298,14 +299,11 @@ void settings_for_truth(fm_settings *truth, const fm_settings *settings)
 fm_status settings_mesh_digest(uint64_t *digest, const char *path, fm_error *err)
 {
     char block[READ_BYTES];
-    fm_status status = FM_OK;
+    FILE *file = NULL;
     XXH64_state_t *state = NULL;
-    struct stat info;
-    if (stat(path, &info) == 0 && !S_ISREG(info.st_mode)) /* devices and pipes may never end */
-        return fm_fail(err, FM_INVALID, "%s: not a regular file", path);
-    FILE *file = fopen(path, "rb");
-    if (file == NULL)
-        return fm_fail(err, FM_IO, "%s: %s", path, strerror(errno));
+    fm_status status = file_open_stream(&file, path, err);
+    if (status != FM_OK)
+        return status;
     state = XXH64_createState();
     if (state == NULL) {
         status = fm_fail(err, FM_NO_MEMORY, "%s: no memory for its digest", path);

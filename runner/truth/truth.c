@@ -1,14 +1,13 @@
 #include "truth.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
-#include <sys/stat.h>
 #include <unistd.h>
 #include <xxhash.h>
 
+#include "base/file.h"
 #include "truth_file.h"
 
 static const char magic[8] = "fmtruth1";
@@ -23,10 +22,17 @@ fm_status truth_file_open(truth_file *file, const char *path, const truth_header
 {
     truth_header full = *header;
     const size_t pixels = (size_t)header->width_px * header->height_px;
-    *file = (truth_file){ .out = fopen(path, "wb") };
+    int fd = -1;
+    *file = (truth_file){ .out = NULL };
     snprintf(file->path, sizeof file->path, "%s", path);
-    if (file->out == NULL)
-        return fm_fail(err, FM_IO, "%s: %s", file->path, strerror(errno));
+    const fm_status status = file_create(&fd, path, err);
+    if (status != FM_OK)
+        return status;
+    file->out = fdopen(fd, "wb");
+    if (file->out == NULL) {
+        close(fd);
+        return fm_fail(err, FM_NO_MEMORY, "%s: no memory to write it", path);
+    }
     if (header->has_arrival && (file->arrival = tmpfile()) == NULL)
         return fm_fail(err, FM_IO, "a temporary file for truth: %s", strerror(errno));
     memcpy(full.magic, magic, sizeof magic);
@@ -105,20 +111,16 @@ static bool is_sound(const fm_truth *truth)
 
 fm_status truth_open(fm_truth **out, const char *path, fm_error *err)
 {
-    struct stat info;
-    fm_status status = FM_OK;
     fm_truth *truth = calloc(1, sizeof *truth);
-    const int fd = open(path, O_RDONLY | O_CLOEXEC);
+    int fd = -1;
     *out = NULL;
-    if (truth == NULL) {
-        status = fm_fail(err, FM_NO_MEMORY, "%s: no memory", path);
+    if (truth == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "%s: no memory", path);
+    fm_status status = file_open(&fd, &truth->map_bytes, path, err);
+    if (status == FM_INVALID)
+        status = fm_fail(err, FM_IO, "%s: not a truth file: a folder, a device or a pipe", path);
+    if (status != FM_OK)
         goto out;
-    }
-    if (fd < 0 || fstat(fd, &info) != 0) {
-        status = fm_fail(err, FM_IO, "%s: %s", path, strerror(errno));
-        goto out;
-    }
-    truth->map_bytes = (uint64_t)info.st_size;
     truth->map = mmap(NULL, truth->map_bytes, PROT_READ, MAP_PRIVATE, fd, 0);
     if (truth->map == MAP_FAILED) {
         truth->map = NULL;
