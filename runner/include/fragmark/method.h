@@ -8,10 +8,10 @@
  *     };
  *
  * and lies in a folder of the method's name, beside the GLSL file of each pass:
- * kplus-array/kplus-array.so, kplus-array/store.glsl, ... A process of
- * its own, with limits, loads the plugin, and the runner checks the whole descriptor; what runs is
- * loaded by the process that measures. The runner generates every GLSL declaration and every main(), allocates every
- * resource, derives every barrier, and measures every pass.
+ * kplus-array/kplus-array.so, kplus-array/store.glsl, ... A process of its own, with limits, loads
+ * the plugin to learn what it is, and the whole descriptor is checked; to run, it is loaded by the
+ * process that measures. The runner generates every GLSL declaration and every main(), allocates
+ * every resource, derives every barrier, and measures every pass.
  *
  *   method.h     what the method is, its options, its hook, and the descriptor itself
  *   resource.h   buffers, images, and numbers read back
