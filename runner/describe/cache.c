@@ -190,7 +190,7 @@ static bool add_file(cached **files, size_t *count, int folder, const char *name
         return false;
     *files = grown;
     grown[*count].written = info.st_mtim;
-    snprintf(grown[(*count)++].name, sizeof grown->name, "%s", name);
+    memcpy(grown[(*count)++].name, name, strlen(name) + 1);
     return true;
 }
 

@@ -24,7 +24,7 @@
 #include "describe.h"
 
 enum {
-    AT_A_TIME = 4,
+    AT_A_TIME = 8,
     WALL_S = 5,      /* of a loader */
     PROCESSOR_S = 2, /* the same */
     OPEN_FILES = 64,

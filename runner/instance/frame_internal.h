@@ -1,5 +1,6 @@
 /* What the files that run a frame share; nobody else includes it. From below:
  *   frame_record.c    a recording: opened, timed, submitted; one pass in it
+ *   frame_hook.c      the method's hook
  *   frame_totals.c    totals read back, and what follows from them
  *   frame_loops.c     passes in order, loops within loops
  *   instance_frame.c  a whole frame, and again if something had to grow */
@@ -40,6 +41,11 @@ void frame_timer_begin(frame_run *frame, uint32_t timer);
 void frame_timer_end(frame_run *frame, uint32_t timer);
 /* Records one pass. */
 fm_status frame_pass(frame_run *frame, size_t index, uint32_t iteration);
+
+/* frame_hook.c */
+/* Asks the `after` hook, which is there. FM_INVALID: it answers what cannot be done, or writes to
+ * what it is shown. */
+fm_status frame_hook(fm_next *next, const frame_run *frame, size_t index);
 
 /* frame_totals.c */
 /* Totals that this pass completes; the hook, if it is a host pass. */

@@ -99,8 +99,10 @@ static fm_status run_loop(frame_run *frame, const fm_loop *loop, fm_next *next)
     }
     if (status == FM_OK)
         status = judge_end(frame, &end, i);
-    if (*next == FM_REPEAT) /* heard: it is not for the loop around this one */
-        *next = FM_NEXT;
+    if (status == FM_OK && *next == FM_REPEAT)
+        return fm_fail(frame->err, FM_INVALID,
+                       "%s: loop '%s': after: answered FM_REPEAT (%u) in iteration %u, the last",
+                       instance->method->id, loop->first, (unsigned)*next, i);
     return status;
 }
 

@@ -99,7 +99,5 @@ fm_status frame_after_pass(frame_run *frame, size_t index, fm_next *next)
         instance->method->after == NULL)
         return status;
     status = frame_flush(frame);
-    if (status == FM_OK)
-        *next = instance->method->after(&instance->workload, pass->name);
-    return status;
+    return status == FM_OK ? frame_hook(next, frame, index) : status;
 }

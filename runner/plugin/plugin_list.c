@@ -31,7 +31,7 @@ static fm_status add_entry(fm_plugin_list *list, const char *id, const char *pat
     fm_plugin_entry *entry = &grown[list->count++];
     *entry = (fm_plugin_entry){ 0 };
     snprintf(entry->id, sizeof entry->id, "%s", id);
-    snprintf(entry->path, sizeof entry->path, "%s", path);
+    memcpy(entry->path, path, strlen(path) + 1); /* join() has seen to its length */
     return FM_OK;
 }
 

@@ -218,6 +218,19 @@ static fm_status make_entry_room(tbr *gpu, fm_error *err)
     return FM_OK;
 }
 
+static fm_status no_answer(const char *hook, unsigned value, uint32_t tile, fm_error *err)
+{
+    return fm_fail(err, FM_INVALID, "technique: %s: answered %u in tile %u, no such value", hook,
+                   value, tile);
+}
+
+/* What hooks answered of a pair. */
+typedef struct pair_answers {
+    fm_prediction prediction;
+    fm_place place;
+    bool is_signed;
+} pair_answers;
+
 static fm_prediction predict(tbr *gpu, const fm_pair *pair)
 {
     if (gpu->technique.predict == NULL)
@@ -236,13 +249,40 @@ static bool sign(tbr *gpu, tbr_bin *bin, const fm_pair *pair, fm_prediction pred
     return gpu->technique.sign == NULL || gpu->technique.sign(&bin->bits, pair, prediction);
 }
 
+/* Hooks see a copy; one that writes to it changes nothing, and is refused. */
+static fm_status ask_hooks(pair_answers *answers, tbr *gpu, uint32_t tile, const fm_pair *pair,
+                           fm_error *err)
+{
+    const fm_technique *hooks = &gpu->technique;
+    fm_pair shown;
+    memcpy(&shown, pair, sizeof shown);
+    answers->prediction = predict(gpu, &shown);
+    answers->is_signed = sign(gpu, &gpu->bins[tile], &shown, answers->prediction);
+    answers->place =
+        hooks->place != NULL ? hooks->place(&shown, answers->prediction) : FM_PLACE_FIRST;
+    if ((unsigned)answers->prediction > FM_HIDDEN_BY_DEPTH)
+        return no_answer("predict", answers->prediction, tile, err);
+    if ((unsigned)answers->place > FM_PLACE_BARRIER)
+        return no_answer("place", answers->place, tile, err);
+    if (answers->place == FM_PLACE_SECOND && pair->type != FM_TYPE_WOZ)
+        return fm_fail(err, FM_INVALID,
+                       "technique: place: answered FM_PLACE_SECOND (%u) in tile %u for a pair of "
+                       "another type than FM_TYPE_WOZ",
+                       (unsigned)answers->place, tile);
+    if (memcmp(&shown, pair, sizeof shown) != 0)
+        return fm_fail(err, FM_INVALID,
+                       "technique: a hook wrote to the pair in tile %u, which is constant", tile);
+    return FM_OK;
+}
+
 /* The pair of the primitive that was set up last with a tile. */
 static fm_status bin_pair(tbr *gpu, uint32_t tile, uint32_t primitive_crc, fm_error *err)
 {
     const uint32_t primitive = gpu->primitive_count - 1, draw = gpu->primitive_draw[primitive];
     const tbr_draw *ready = &gpu->draws[draw];
     tbr_bin *bin = &gpu->bins[tile];
-    const fm_status status = make_entry_room(gpu, err);
+    pair_answers answers;
+    fm_status status = make_entry_room(gpu, err);
     if (status != FM_OK)
         return status;
     if (gpu->tracks_layers)
@@ -254,21 +294,20 @@ static fm_status bin_pair(tbr *gpu, uint32_t tile, uint32_t primitive_crc, fm_er
         .depth_near = 2 * gpu->setups[primitive].z_min,
         .fvp = gpu->memory[tile].fvp,
     };
-    const fm_prediction prediction = predict(gpu, &pair);
-    const bool is_signed = sign(gpu, bin, &pair, prediction);
+    status = ask_hooks(&answers, gpu, tile, &pair, err);
+    if (status != FM_OK)
+        return status;
     const uint32_t entry = gpu->entry_count++;
     gpu->entries[entry] = (tbr_entry){ .primitive = primitive,
                                        .draw = draw,
                                        .next = TBR_NO_ENTRY,
                                        .layer = (uint16_t)pair.layer,
-                                       .prediction = (uint8_t)prediction,
-                                       .is_signed = is_signed };
-    place(gpu, bin,
-          gpu->technique.place != NULL ? gpu->technique.place(&pair, prediction) : FM_PLACE_FIRST,
-          entry);
-    gpu->pair_is_signed[gpu->pair_count++] = is_signed;
+                                       .prediction = (uint8_t)answers.prediction,
+                                       .is_signed = answers.is_signed };
+    place(gpu, bin, answers.place, entry);
+    gpu->pair_is_signed[gpu->pair_count++] = answers.is_signed;
     gpu->pair_counts[primitive]++;
-    if (tbr_has(gpu, FM_PART_SIGNATURES) && is_signed) {
+    if (tbr_has(gpu, FM_PART_SIGNATURES) && answers.is_signed) {
         sign_state(gpu, bin, draw);
         bin->signature = crc_combine(&gpu->shift_primitive, bin->signature, primitive_crc);
         gpu->counters.signed_pairs++;

@@ -109,7 +109,11 @@ typedef struct tbr_thread {
     tbr_counters counters;
     tbr_work *work;
     uint32_t work_room;
-    bool failed; /* no memory for work */
+    bool failed;         /* no memory for work */
+    bool is_wrong;       /* `tile_end` filled what it must not: */
+    uint32_t wrong_tile; /* in this tile first, */
+    unsigned wrong_value;
+    const char *wrong_field;
 } tbr_thread;
 
 /* Whether there is a frame that "previous" means. */

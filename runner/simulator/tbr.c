@@ -131,6 +131,20 @@ static void swap_buffers(tbr *gpu)
     gpu->other_memory = memory;
 }
 
+/* Of several threads the one with the lowest tile speaks. */
+static fm_status judge_hooks(const tbr *gpu, fm_error *err)
+{
+    const tbr_thread *wrong = NULL;
+    for (uint32_t i = 0; i < gpu->desc.threads; i++)
+        if (gpu->threads[i].is_wrong &&
+            (wrong == NULL || gpu->threads[i].wrong_tile < wrong->wrong_tile))
+            wrong = &gpu->threads[i];
+    if (wrong == NULL)
+        return FM_OK;
+    return fm_fail(err, FM_INVALID, "technique: tile_end: %s: %u in tile %u, no such value",
+                   wrong->wrong_field, wrong->wrong_value, wrong->wrong_tile);
+}
+
 fm_status tbr_frame(tbr *gpu, const fm_frame *frame, fm_error *err)
 {
     bool failed = false;
@@ -150,6 +164,9 @@ fm_status tbr_frame(tbr *gpu, const fm_frame *frame, fm_error *err)
         failed = failed || gpu->threads[i].failed;
     }
     gpu->frame_index++;
+    const fm_status status_of_hooks = judge_hooks(gpu, err);
+    if (status_of_hooks != FM_OK)
+        return status_of_hooks;
     return failed ? fm_fail(err, FM_NO_MEMORY, "no memory for the work of a tile") : FM_OK;
 }
 

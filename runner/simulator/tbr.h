@@ -91,7 +91,8 @@ fm_status tbr_create(tbr **made, const tbr_desc *desc, fm_error *err);
 /* Accepts NULL. */
 void tbr_destroy(tbr *gpu);
 /* Simulates one frame, which must have passed frame_check and is borrowed for the call.
- * FM_NO_MEMORY: and from then on the simulator may only be destroyed. */
+ * FM_NO_MEMORY, or FM_INVALID where a hook of the technique answers what cannot be: and from then
+ * on the simulator may only be destroyed. */
 fm_status tbr_frame(tbr *gpu, const fm_frame *frame, fm_error *err);
 
 /* What follows asks about the last frame. Pointers are valid until the next one. */

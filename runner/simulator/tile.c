@@ -328,6 +328,39 @@ static void flush(tile_state *tile)
     tile->counters.flush_bytes += (uint64_t)(4 * tile->width * tile->height);
 }
 
+/* A bool that a hook filled: whatever byte lies there. */
+static unsigned byte_of(const bool *filled)
+{
+    unsigned char byte;
+    memcpy(&byte, filled, sizeof byte);
+    return byte;
+}
+
+/* What a hook filled with no value of its type becomes the default, and the frame is refused. */
+static void check_end(tile_state *tile, fm_tile_end *end)
+{
+    tbr_thread *thread = tile->thread;
+    const fm_tile_end usual = { .fvp = FM_FVP_UNKNOWN, .signature_valid = true };
+    const struct {
+        const char *field;
+        unsigned value, largest;
+    } filled[] = { { "outcome", end->outcome, FM_TILE_FORESEEN },
+                   { "signature_valid", byte_of(&end->signature_valid), 1 },
+                   { "fvp.is_layer", byte_of(&end->fvp.is_layer), 1 } };
+    for (size_t i = 0; i < sizeof filled / sizeof filled[0]; i++) {
+        if (filled[i].value <= filled[i].largest)
+            continue;
+        if (!thread->is_wrong) {
+            thread->is_wrong = true;
+            thread->wrong_tile = tile->tile;
+            thread->wrong_field = filled[i].field;
+            thread->wrong_value = filled[i].value;
+        }
+        *end = usual;
+        return;
+    }
+}
+
 static fm_tile_end end_tile(tile_state *tile)
 {
     const tbr *gpu = tile->gpu;
@@ -344,8 +377,10 @@ static fm_tile_end end_tile(tile_state *tile)
             tile->met_taint || (tile->unsigned_passed && tile->unsigned_layer >= end.layer_far);
     if (tbr_has(gpu, FM_PART_PREVIOUS_COLOUR))
         end.is_equal = equals_image(tile);
-    if (gpu->technique.tile_end != NULL)
-        gpu->technique.tile_end(&end);
+    if (gpu->technique.tile_end == NULL)
+        return end;
+    gpu->technique.tile_end(&end);
+    check_end(tile, &end);
     return end;
 }
 

@@ -82,9 +82,14 @@ static fm_status run_frames(technique_run *run, fm_error *err)
         status = run->sequence->frame(run->sequence, &frame, i, err);
         if (status == FM_OK)
             status = frame_check(frame, i, err);
+        const bool is_ready = status == FM_OK;
         const double begin = clock_s();
-        if (status == FM_OK)
+        if (is_ready)
             status = tbr_frame(run->gpu, frame, err);
+        if (is_ready && status == FM_INVALID && run->job->method != NULL) {
+            run->outcome.is_techniques = true;
+            status = fm_error_prefix(err, "%s: frame %u", run->job->method->id, i);
+        }
         run->seconds +=
             i > 0 ? clock_s() - begin : 0; /* of the frames whose fragments are summed */
         if (status == FM_OK)

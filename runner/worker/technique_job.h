@@ -36,11 +36,12 @@ typedef struct fm_technique_outcome {
     uint64_t fragments;   /* rasterised, of all frames with the first */
     uint64_t wrong_tiles; /* of all frames: their colours are not the baseline's */
     uint32_t wrong_frames, first_wrong_frame; /* frames with such a tile, counted from 0 */
+    bool is_techniques;                       /* it failed by what a hook answered */
 } fm_technique_outcome;
 
 /* FM_UNSUPPORTED: a sequence or a model that cannot be had.
- * FM_INVALID: a frame that the simulator does not take. FM_IO: the truth or the image cannot be
- * read or written.
+ * FM_INVALID: a frame that the simulator does not take, or what a hook answers. FM_IO: the truth or
+ * the image cannot be read or written.
  */
 fm_status technique_job_run(json_t *answer, fm_technique_outcome *outcome,
                             const fm_technique_job *job, fm_error *err);

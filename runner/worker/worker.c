@@ -210,6 +210,7 @@ static fm_status frames_job(launch_job *job)
     if (status == FM_OK)
         status = technique_job_run(job->answer, &job->sequence, &desc, &job->error);
     job->is_truths = status == FM_IO && job->method != NULL;
+    job->is_plugins = job->sequence.is_techniques;
     if (status == FM_OK && job->sequence.fragments == 0)
         note(job, "%s", FM_NOTHING_DRAWN);
     return status;

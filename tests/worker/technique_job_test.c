@@ -277,6 +277,83 @@ static void truth_of_another_sequence_is_refused(void **state)
     sequence_close(&made);
 }
 
+/* Hooks that answer what is no answer, or write to what they are shown. */
+static fm_prediction foretells_nonsense(const fm_pair *pair)
+{
+    static const unsigned nonsense = 77;
+    fm_prediction prediction;
+    (void)pair;
+    memcpy(&prediction, &nonsense, sizeof prediction);
+    return prediction;
+}
+
+static fm_place places_nowhere(const fm_pair *pair, fm_prediction prediction)
+{
+    static const unsigned nonsense = 78;
+    fm_place place;
+    (void)pair;
+    (void)prediction;
+    memcpy(&place, &nonsense, sizeof place);
+    return place;
+}
+
+static fm_prediction rewrites_the_pair(const fm_pair *pair)
+{
+    fm_pair *written;
+    memcpy(&written, &pair, sizeof written);
+    written->layer += 1;
+    return FM_VISIBLE;
+}
+
+static void ends_nowhere(fm_tile_end *tile)
+{
+    static const unsigned nonsense = 79;
+    memcpy(&tile->outcome, &nonsense, sizeof tile->outcome);
+}
+
+static void ends_neither_true_nor_false(fm_tile_end *tile)
+{
+    memset(&tile->signature_valid, 80, sizeof tile->signature_valid);
+}
+
+static void what_hooks_answer_is_checked(void **state)
+{
+    (void)state;
+    static const struct {
+        fm_technique technique;
+        const char *message;
+    } wrong[] = {
+        { { .parts = FM_PART_VISIBILITY, .predict = foretells_nonsense },
+          "hooked: frame 0: technique: predict: answered 77 in tile 0, no such value" },
+        { { .place = places_nowhere },
+          "hooked: frame 0: technique: place: answered 78 in tile 0, no such value" },
+        { { .parts = FM_PART_VISIBILITY, .predict = rewrites_the_pair },
+          "hooked: frame 0: technique: a hook wrote to the pair in tile 0, which is constant" },
+        { { .tile_end = ends_nowhere },
+          "hooked: frame 0: technique: tile_end: outcome: 79 in tile 0, no such value" },
+        { { .tile_end = ends_neither_true_nor_false },
+          "hooked: frame 0: technique: tile_end: signature_valid: 80 in tile 0, no such value" },
+    };
+    test_sequence made = { .frames = 2, .extra = 1 };
+    fm_technique_outcome outcome;
+    sequence_open(&made);
+    json_decref(judge(&outcome, &made, NULL));
+    assert_false(outcome.is_techniques);
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        const fm_method_desc hooked = { .id = "hooked", .technique = &wrong[i].technique };
+        const fm_technique_job job = {
+            .settings = &made.settings, .truth = made.truth, .image = "", .method = &hooked
+        };
+        fm_error err = { 0 };
+        json_t *answer = json_object();
+        assert_int_equal(technique_job_run(answer, &outcome, &job, &err), FM_INVALID);
+        assert_string_equal(err.message, wrong[i].message);
+        assert_true(outcome.is_techniques);
+        json_decref(answer);
+    }
+    sequence_close(&made);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -285,6 +362,7 @@ int main(void)
         cmocka_unit_test(fragments_of_the_first_frame_count_as_drawn),
         cmocka_unit_test(image_hash_is_of_all_frames),
         cmocka_unit_test(truth_of_another_sequence_is_refused),
+        cmocka_unit_test(what_hooks_answer_is_checked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

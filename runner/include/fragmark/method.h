@@ -8,9 +8,10 @@
  *     };
  *
  * and lies in a folder of the method's name, beside the GLSL file of each pass:
- * kplus-array/kplus-array.so, kplus-array/store.glsl, ... The runner checks the whole descriptor
- * once when it opens the plugin, generates every GLSL declaration and every main(), allocates every
- * resource, derives every barrier, and measures every pass.
+ * kplus-array/kplus-array.so, kplus-array/store.glsl, ... A process of its own, with limits, loads
+ * the plugin to learn what it is, and the whole descriptor is checked; to run, it is loaded by the
+ * process that measures. The runner generates every GLSL declaration and every main(), allocates
+ * every resource, derives every barrier, and measures every pass.
  *
  *   method.h     what the method is, its options, its hook, and the descriptor itself
  *   resource.h   buffers, images, and numbers read back
@@ -152,7 +153,8 @@ typedef struct fm_workload {
 /* What the hook answers. */
 typedef enum fm_next {
     FM_NEXT,   /* go on with the next pass */
-    FM_REPEAT, /* run the innermost loop that holds this pass once more */
+    FM_REPEAT, /* run the innermost loop that holds this pass once more; refused where there is
+                  none, and after the last iteration that fm_loop.max allows */
     FM_REDO,   /* start the frame again, 8 times at most: then the case is refused */
 } fm_next;
 
@@ -185,7 +187,8 @@ typedef struct fm_method_desc {
     fm_loop loops[FM_MAX_LOOPS];             /* which passes run again */
 
     /* The one hook, for what data cannot say; NULL: FM_NEXT. Called after each host pass, in the
-     * process that measures, by one thread; `pass` is its name. It keeps no state. */
+     * process that measures, by one thread; `pass` is its name. It keeps no state, and what it is
+     * handed is a copy: a hook that writes to it, or answers anything else, is a plugin_error. */
     fm_next (*after)(const fm_workload *, const char *pass);
 
     /* FM_KEEPS_K_NEAREST only: the total that is the frame's k, where the method chooses it, from 1
