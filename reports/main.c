@@ -3,19 +3,26 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
-#include "base/path.h"
+#include "base/data.h"
 #include "claims/verdicts.h"
 #include "page/report.h"
 
-enum { EXIT_DONE = 0, EXIT_CLAIM = 1, EXIT_USAGE = 2, EXIT_DAMAGED = 8, FIGURES_MOST = 64 };
+enum {
+    EXIT_DONE = 0,
+    EXIT_CLAIM = 1,
+    EXIT_USAGE = 2,
+    EXIT_DAMAGED = 8,
+    FIGURES_MOST = 64,
+    KEY_CHECK = 512
+};
 
 typedef struct arguments {
     const char *directory;
     const char *figures[FIGURES_MOST];
     size_t figure_count;
     const char *reference; /* NULL: not given */
+    bool only_checks;
 } arguments;
 
 static error_t parse(int key, char *value, struct argp_state *state)
@@ -30,13 +37,16 @@ static error_t parse(int key, char *value, struct argp_state *state)
     case 'r':
         given->reference = value;
         return 0;
+    case KEY_CHECK:
+        given->only_checks = true;
+        return 0;
     case ARGP_KEY_ARG:
         if (given->directory != NULL)
             argp_error(state, "one directory at a time; \"%s\" is a second one", value);
         given->directory = value;
         return 0;
     case ARGP_KEY_END:
-        if (given->directory == NULL)
+        if (given->directory == NULL && !given->only_checks)
             argp_error(state, "which directory? One that `fragmark run -o DIR` has written");
         return 0;
     default:
@@ -44,30 +54,15 @@ static error_t parse(int key, char *value, struct argp_state *state)
     }
 }
 
-static bool is_in_folder(char path[FM_PATH_MAX_BYTES], const char *folder, size_t folder_length,
-                         const char *id)
-{
-    const int length =
-        snprintf(path, FM_PATH_MAX_BYTES, "%.*s/%s.yml", (int)folder_length, folder, id);
-    return folder_length > 0 && length > 0 && length < FM_PATH_MAX_BYTES && access(path, R_OK) == 0;
-}
-
 /* Where a figure's file is: the argument itself, or an id in the folders that hold figures. */
-static bool find_figure(char path[FM_PATH_MAX_BYTES], const char *name)
+static fm_status find_figure(char path[FM_PATH_MAX_BYTES], const char *name, fm_error *err)
 {
-    const char *search = getenv("FRAGMARK_FIGURE_PATH"); /* folders with ':' between them */
-    if (strchr(name, '/') != NULL || strchr(name, '.') != NULL) {
-        snprintf(path, FM_PATH_MAX_BYTES, "%s", name);
-        return strlen(name) < FM_PATH_MAX_BYTES && access(path, R_OK) == 0;
-    }
-    while (search != NULL && *search != '\0') {
-        size_t length = strcspn(search, ":");
-        if (is_in_folder(path, search, length, name))
-            return true;
-        search += length + (search[length] == ':');
-    }
-    return is_in_folder(path, FM_FIGURES_SOURCE_DIR, strlen(FM_FIGURES_SOURCE_DIR), name) ||
-           is_in_folder(path, FM_FIGURES_INSTALL_DIR, strlen(FM_FIGURES_INSTALL_DIR), name);
+    if (strchr(name, '/') == NULL && strchr(name, '.') == NULL)
+        return data_find(path, DATA_FIGURES, name, ".yml", err);
+    if (strlen(name) >= FM_PATH_MAX_BYTES)
+        return fm_fail(err, FM_INVALID, "figure %.64s...: too long a path", name);
+    strcpy(path, name);
+    return FM_OK;
 }
 
 /* The run says which figures it is for; those asked for on the command line come instead. One whose
@@ -75,12 +70,12 @@ static bool find_figure(char path[FM_PATH_MAX_BYTES], const char *name)
 static void take_figures_of_run(arguments *given, const fm_provenance *manifest)
 {
     char path[FM_PATH_MAX_BYTES];
+    fm_error err = { 0 };
     for (size_t i = 0; i < manifest->figure_count && given->figure_count < FIGURES_MOST; i++) {
-        if (find_figure(path, manifest->figures[i]))
+        if (find_figure(path, manifest->figures[i], &err) == FM_OK)
             given->figures[given->figure_count++] = manifest->figures[i];
         else
-            fprintf(stderr, "fragmark-report: figure %s is not here: left out\n",
-                    manifest->figures[i]);
+            fprintf(stderr, "fragmark-report: %s: left out\n", err.message);
     }
 }
 
@@ -88,37 +83,29 @@ static fm_status read_figures(fm_paper_figure **figures, const arguments *given,
 {
     char path[FM_PATH_MAX_BYTES];
     for (size_t i = 0; i < given->figure_count; i++) {
-        if (!find_figure(path, given->figures[i]))
-            return fm_fail(err, FM_INVALID, "figure \"%s\": no such file, and no such id in %s",
-                           given->figures[i], FM_FIGURES_SOURCE_DIR);
-        fm_status status = paper_figure_read(&figures[i], path, err);
+        fm_status status = find_figure(path, given->figures[i], err);
+        if (status == FM_OK)
+            status = paper_figure_read(&figures[i], path, err);
         if (status != FM_OK)
             return status;
     }
     return FM_OK;
 }
 
-/* Another machine's results: a folder, or the name of one in reports/reference. */
+/* Another machine's results: a folder, or the name of one of ours. */
 static fm_status open_reference(fm_result_files **reference, char path[FM_PATH_MAX_BYTES],
                                 const arguments *given, fm_error *err)
 {
-    static const char *const folders[] = { FM_REFERENCE_SOURCE_DIR, FM_REFERENCE_INSTALL_DIR };
     const char *name = given->reference != NULL ? given->reference : "h100";
     *reference = NULL;
     if (strcmp(name, "none") == 0)
         return FM_OK;
     if (strchr(name, '/') != NULL)
         return result_files_read(reference, name, err);
-    for (size_t i = 0; i < sizeof folders / sizeof folders[0]; i++) {
-        const fm_status status = path_join(path, folders[i], name, err);
-        if (status != FM_OK)
-            return status;
-        if (access(path, F_OK) == 0)
-            return result_files_read(reference, path, err);
-    }
-    return given->reference == NULL
-               ? FM_OK
-               : fm_fail(err, FM_INVALID, "no reference \"%s\" in %s", name, folders[0]);
+    const fm_status status = data_find(path, DATA_REFERENCES, name, "", err);
+    if (status == FM_OK)
+        return result_files_read(reference, path, err);
+    return given->reference == NULL && status == FM_INVALID ? FM_OK : status;
 }
 
 /* A run is no other machine's reference of itself. */
@@ -205,6 +192,20 @@ out:
     return code;
 }
 
+/* Whether the figures and the reference that are asked for can be read: known before a long run. */
+static int check(const arguments *given, fm_error *err)
+{
+    char path[FM_PATH_MAX_BYTES];
+    fm_result_files *reference = NULL;
+    fm_paper_figure *figures[FIGURES_MOST] = { NULL };
+    const bool is_right = read_figures(figures, given, err) == FM_OK &&
+                          open_reference(&reference, path, given, err) == FM_OK;
+    for (size_t i = 0; i < given->figure_count; i++)
+        paper_figure_close(figures[i]);
+    result_files_close(reference);
+    return is_right ? EXIT_DONE : EXIT_USAGE;
+}
+
 int main(int argc, char **argv)
 {
     static const struct argp_option options[] = {
@@ -216,6 +217,8 @@ int main(int argc, char **argv)
           "Another machine's results: curves beside ours in all charts (without this option in "
           "ratios only), and verdicts on what this machine cannot test; h100",
           0 },
+        { "check", KEY_CHECK, NULL, 0,
+          "Only say whether these figures and this reference can be read", 0 },
         { 0 },
     };
     static const struct argp argp = {
@@ -238,7 +241,7 @@ int main(int argc, char **argv)
     fm_error err = { 0 };
     argp_err_exit_status = EXIT_USAGE;
     argp_parse(&argp, argc, argv, 0, NULL, &given);
-    int code = make_report(&given, &err);
+    const int code = given.only_checks ? check(&given, &err) : make_report(&given, &err);
     if (code != EXIT_DONE)
         fprintf(stderr, "fragmark-report: %s\n", err.message);
     return code;

@@ -1,7 +1,10 @@
 #include "path.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 fm_status path_join(char path[FM_PATH_MAX_BYTES], const char *folder, const char *name,
                     fm_error *err)
@@ -20,4 +23,16 @@ bool path_beside(char *path, size_t room_bytes, const char *file, const char *na
     const int folder_length = slash != NULL ? (int)(slash - file) + 1 : 0;
     const int length = snprintf(path, room_bytes, "%.*s%s", folder_length, file, name);
     return length >= 0 && (size_t)length < room_bytes;
+}
+
+fm_status path_is_folder(const char *path, fm_error *err)
+{
+    struct stat info;
+    if (stat(path, &info) != 0)
+        return fm_fail(err, FM_IO, "%s: %s", path, strerror(errno));
+    if (!S_ISDIR(info.st_mode))
+        return fm_fail(err, FM_IO, "%s: is not a folder", path);
+    if (access(path, R_OK | X_OK) != 0)
+        return fm_fail(err, FM_IO, "%s: %s", path, strerror(errno));
+    return FM_OK;
 }

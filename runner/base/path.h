@@ -16,4 +16,7 @@ fm_status path_join(char path[FM_PATH_MAX_BYTES], const char *folder, const char
 /* `name` as seen from the folder of `file`: absolute names stay. false: longer than the room. */
 bool path_beside(char *path, size_t room_bytes, const char *file, const char *name);
 
+/* FM_OK: a folder that may be read. FM_IO: "PATH: Permission denied", "PATH: is not a folder". */
+fm_status path_is_folder(const char *path, fm_error *err);
+
 #endif
