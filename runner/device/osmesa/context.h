@@ -71,7 +71,8 @@ typedef struct osmesa_limits {
 /* The device. What OpenGL made for it, but for buffers, images and pipelines, ends with its
  * context. */
 typedef struct osmesa {
-    fm_device base;        /* first: a fm_device is cast to this */
+    fm_device base; /* first: a fm_device is cast to this */
+    osmesa_library library;
     OSMesaContext context; /* current on the thread that called osmesa_current last */
     unsigned char window[OSMESA_WINDOW_PX * OSMESA_WINDOW_PX * 4];
     fm_gl gl; /* entry points */
