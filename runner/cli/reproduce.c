@@ -343,6 +343,7 @@ static int run_specs(const spec_files *specs, const fm_arguments *arguments)
                                 .memory = &memory };
     if (make_plan(&plan, &plugins, arguments, specs, &err) != FM_OK ||
         make_tables(&memory, arguments->cli, specs, &plugins, &err) != FM_OK ||
+        report_expect(arguments, desc.figures, &err) != FM_OK ||
         assign_cases(&plan, directory, specs, arguments, &plugins, &err) != FM_OK)
         code = cli_fail(arguments->cli, &err);
     else

@@ -102,6 +102,23 @@ if [ -x "$(dirname "$program")/fragmark-report" ]; then
     check report_that_fails_is_told 5 "again with" "$program" run --method z-buffer --device dummy \
         -a n=4 -a width_px=16 -a height_px=16 -a frames=1 -a launches=1 --no-images -o "$here/blocked"
 fi
+# What is asked for and missing is told before anything is measured, and nothing is left.
+table() { "$program" reproduce kplus-table1 -o "$here/absent" "$@"; }
+check missing_reference_is_told_first 2 "the nearest is 'h100'" table --reference h10
+check missing_reference_without_a_report_too 2 "the nearest is 'h100'" table --reference h10 --no-report
+check missing_reference_folder_is_told_first 2 "$here/none: No such file" table --reference "$here/none"
+if [ -x "$(dirname "$program")/fragmark-report" ]; then
+    mkdir "$here/undrawn"
+    sed 's/x: k, //' "$here/two/one-1.yml" >"$here/undrawn/one-1.yml"
+    check figure_that_cannot_be_drawn_is_told_first 2 "nothing was measured" \
+        env FRAGMARK_FIGURE_PATH="$here/undrawn" "$program" reproduce one-1 --device dummy -o "$here/absent"
+fi
+for kind in PLUGIN SCENE FIGURE REFERENCE; do
+    check "folder_in_${kind}_PATH_that_is_missing_is_told" 2 "FRAGMARK_${kind}_PATH: $here/none: No such file" \
+        env "FRAGMARK_${kind}_PATH=$here/none" "$program" reproduce kplus-03 --smoke --device dummy \
+        --reference h100 --no-report -o "$here/absent"
+done
+[ -e "$here/absent" ] && complain "what is missing is told first: a folder was made"
 check report_needs_a_folder 2 "which DIR" "$program" report
 
 run() { "$program" run --method kplus-array,z-buffer "${small[@]}" -a launches="$1" -o "$here/$2"; }
