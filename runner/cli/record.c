@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "base/data.h"
-#include "child.h"
+#include "child/child.h"
 #include "cli.h"
 #include "scene/frame_stream.h"
 
