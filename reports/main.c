@@ -7,6 +7,7 @@
 #include "base/data.h"
 #include "claims/verdicts.h"
 #include "page/report.h"
+#include "results_folder.h"
 
 enum {
     EXIT_DONE = 0,
@@ -101,7 +102,8 @@ static fm_status open_reference(fm_result_files **reference, char path[FM_PATH_M
     if (strcmp(name, "none") == 0)
         return FM_OK;
     if (strchr(name, '/') != NULL)
-        return result_files_read(reference, name, err);
+        return results_folder_check(name, err) != FM_OK ? FM_INVALID
+                                                        : result_files_read(reference, name, err);
     const fm_status status = data_find(path, DATA_REFERENCES, name, "", err);
     if (status == FM_OK)
         return result_files_read(reference, path, err);
@@ -163,6 +165,8 @@ static int make_report(arguments *given, fm_error *err)
     const fm_paper_figure *borrowed[FIGURES_MOST] = { NULL };
     fm_claim_results verdicts = { 0 };
     fm_report_outcome outcome;
+    if (results_folder_check(given->directory, err) != FM_OK)
+        return EXIT_USAGE;
     if (result_files_read(&results, given->directory, err) != FM_OK ||
         open_reference(&reference, reference_path, given, err) != FM_OK)
         goto out;

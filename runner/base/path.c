@@ -36,3 +36,28 @@ fm_status path_is_folder(const char *path, fm_error *err)
         return fm_fail(err, FM_IO, "%s: %s", path, strerror(errno));
     return FM_OK;
 }
+
+static fm_status make_folder(const char *path, fm_error *err)
+{
+    struct stat info;
+    if (mkdir(path, 0777) == 0)
+        return FM_OK;
+    const int reason = errno;
+    if (stat(path, &info) != 0)
+        return fm_fail(err, FM_IO, "%s: cannot be made: %s", path, strerror(reason));
+    return S_ISDIR(info.st_mode) ? FM_OK : fm_fail(err, FM_IO, "%s: is not a folder", path);
+}
+
+fm_status path_make_folders(const char *path, fm_error *err)
+{
+    char part[FM_PATH_MAX_BYTES];
+    fm_status status = FM_OK;
+    snprintf(part, sizeof part, "%s", path);
+    for (char *slash = strchr(part + 1, '/'); slash != NULL && status == FM_OK;
+         slash = strchr(slash + 1, '/')) {
+        *slash = '\0';
+        status = make_folder(part, err);
+        *slash = '/';
+    }
+    return status == FM_OK ? make_folder(part, err) : status;
+}

@@ -19,4 +19,7 @@ bool path_beside(char *path, size_t room_bytes, const char *file, const char *na
 /* FM_OK: a folder that may be read. FM_IO: "PATH: Permission denied", "PATH: is not a folder". */
 fm_status path_is_folder(const char *path, fm_error *err);
 
+/* Like mkdir -p. FM_IO names the folder that could not be made, and why. */
+fm_status path_make_folders(const char *path, fm_error *err);
+
 #endif

@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/path.h"
 #include "cli.h"
 #include "plan/memory_table.h"
 
@@ -263,8 +264,8 @@ static fm_status write_figure_cases(const char *directory, const fm_text *csv, f
     snprintf(path, sizeof path, "%s/figures.csv", directory);
     if (access(path, F_OK) == 0)
         return FM_OK;
-    if (mkdir(directory, 0777) != 0 && errno != EEXIST)
-        return fm_fail(err, FM_IO, "%s: %s", directory, strerror(errno));
+    if (path_make_folders(directory, err) != FM_OK)
+        return FM_IO;
     return csv->failed ? fm_fail(err, FM_NO_MEMORY, "%s", path)
                        : text_write_file(path, csv->bytes, csv->length, err);
 }

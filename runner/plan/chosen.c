@@ -164,8 +164,22 @@ static const fm_method_desc *method_of(const fm_chosen *chosen, size_t i)
     return chosen->methods[i]->plugin != NULL ? chosen->methods[i]->plugin->method : NULL;
 }
 
+/* The first chosen method that was refused; its options are not known. */
+static const fm_plugin_entry *refused_method(const fm_chosen *chosen)
+{
+    for (size_t i = 0; i < chosen->method_count; i++)
+        if (chosen->methods[i]->plugin == NULL)
+            return chosen->methods[i];
+    return NULL;
+}
+
 static fm_status unknown_option(const fm_chosen *chosen, const fm_sweep *sweep, fm_error *err)
 {
+    const fm_plugin_entry *refused = refused_method(chosen);
+    if (refused != NULL)
+        return fm_fail(err, FM_INVALID,
+                       "%s: '%.100s' is no key, and method '%s', which may have it, is refused: %s",
+                       sweep->origin, sweep->name, refused->id, refused->error.message);
     const char *known[FM_MAX_OPTIONS + 2] = { selection_nearest(sweep->name) };
     const char *nearest = known[0];
     for (size_t i = 0; i < chosen->method_count; i++) {
