@@ -4,17 +4,20 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
-#include "base/path.h"
+#include "base/data.h"
 #include "claims/verdicts.h"
 #include "model/exit_code.h"
 #include "page/report.h"
+#include "results_folder.h"
+
+enum { KEY_CHECK = 512 };
 
 typedef struct arguments {
     const char *directory;
     fm_text_list figures;
     const char *reference; /* NULL: not given */
+    bool only_checks;
 } arguments;
 
 static error_t parse(int key, char *value, struct argp_state *state)
@@ -26,13 +29,16 @@ static error_t parse(int key, char *value, struct argp_state *state)
     case 'r':
         given->reference = value;
         return 0;
+    case KEY_CHECK:
+        given->only_checks = true;
+        return 0;
     case ARGP_KEY_ARG:
         if (given->directory != NULL)
             argp_error(state, "one directory at a time; \"%s\" is a second one", value);
         given->directory = value;
         return 0;
     case ARGP_KEY_END:
-        if (given->directory == NULL)
+        if (given->directory == NULL && !given->only_checks)
             argp_error(state, "which directory? One that `fragmark run -o DIR` has written");
         return 0;
     default:
@@ -40,30 +46,15 @@ static error_t parse(int key, char *value, struct argp_state *state)
     }
 }
 
-static bool is_in_folder(char path[FM_PATH_MAX_BYTES], const char *folder, size_t folder_length,
-                         const char *id)
-{
-    const int length =
-        snprintf(path, FM_PATH_MAX_BYTES, "%.*s/%s.yml", (int)folder_length, folder, id);
-    return folder_length > 0 && length > 0 && length < FM_PATH_MAX_BYTES && access(path, R_OK) == 0;
-}
-
 /* Where a figure's file is: the argument itself, or an id in the folders that hold figures. */
-static bool find_figure(char path[FM_PATH_MAX_BYTES], const char *name)
+static fm_status find_figure(char path[FM_PATH_MAX_BYTES], const char *name, fm_error *err)
 {
-    const char *search = getenv("FRAGMARK_FIGURE_PATH"); /* folders with ':' between them */
-    if (strchr(name, '/') != NULL || strchr(name, '.') != NULL) {
-        snprintf(path, FM_PATH_MAX_BYTES, "%s", name);
-        return strlen(name) < FM_PATH_MAX_BYTES && access(path, R_OK) == 0;
-    }
-    while (search != NULL && *search != '\0') {
-        size_t length = strcspn(search, ":");
-        if (is_in_folder(path, search, length, name))
-            return true;
-        search += length + (search[length] == ':');
-    }
-    return is_in_folder(path, FM_FIGURES_SOURCE_DIR, strlen(FM_FIGURES_SOURCE_DIR), name) ||
-           is_in_folder(path, FM_FIGURES_INSTALL_DIR, strlen(FM_FIGURES_INSTALL_DIR), name);
+    if (strchr(name, '/') == NULL && strchr(name, '.') == NULL)
+        return data_find(path, DATA_FIGURES, name, ".yml", err);
+    if (strlen(name) >= FM_PATH_MAX_BYTES)
+        return fm_fail(err, FM_INVALID, "figure %.64s...: too long a path", name);
+    strcpy(path, name);
+    return FM_OK;
 }
 
 /* The run says which figures it is for; those asked for on the command line come instead. Without
@@ -72,12 +63,10 @@ static fm_status take_figures_of_run(arguments *given, const fm_provenance *mani
 {
     char path[FM_PATH_MAX_BYTES];
     for (size_t i = 0; i < manifest->figure_count; i++) {
-        if (!find_figure(path, manifest->figures[i]))
-            return fm_fail(err, FM_INVALID,
-                           "figure \"%s\", for which %s was measured, is not here: "
-                           "FRAGMARK_FIGURE_PATH names folders of figures, and --figure those to "
-                           "draw instead",
-                           manifest->figures[i], given->directory);
+        if (find_figure(path, manifest->figures[i], err) != FM_OK)
+            return fm_error_prefix(err, "%s was measured for a figure that is not here (--figure "
+                                        "names those to draw instead)",
+                                   given->directory);
         if (!text_list_add(&given->figures, manifest->figures[i]))
             return fm_fail(err, FM_NO_MEMORY, "no memory for %zu figures", manifest->figure_count);
     }
@@ -90,10 +79,9 @@ static fm_status read_figures(fm_paper_figure **figures, const arguments *given,
     if (figures == NULL)
         return fm_fail(err, FM_NO_MEMORY, "no memory for %zu figures", given->figures.count);
     for (size_t i = 0; i < given->figures.count; i++) {
-        if (!find_figure(path, given->figures.items[i]))
-            return fm_fail(err, FM_INVALID, "figure \"%s\": no such file, and no such id in %s",
-                           given->figures.items[i], FM_FIGURES_SOURCE_DIR);
-        fm_status status = paper_figure_read(&figures[i], path, err);
+        fm_status status = find_figure(path, given->figures.items[i], err);
+        if (status == FM_OK)
+            status = paper_figure_read(&figures[i], path, err);
         if (status != FM_OK)
             return status;
     }
@@ -107,26 +95,21 @@ static void close_figures(fm_paper_figure **figures, const arguments *given)
     free(figures);
 }
 
-/* Another machine's results: a folder, or the name of one in reports/reference. */
+/* Another machine's results: a folder, or the name of one of ours. */
 static fm_status open_reference(fm_result_files **reference, char path[FM_PATH_MAX_BYTES],
                                 const arguments *given, fm_error *err)
 {
-    static const char *const folders[] = { FM_REFERENCE_SOURCE_DIR, FM_REFERENCE_INSTALL_DIR };
     const char *name = given->reference != NULL ? given->reference : "h100";
     *reference = NULL;
     if (strcmp(name, "none") == 0)
         return FM_OK;
     if (strchr(name, '/') != NULL)
-        return result_files_read(reference, name, err);
-    for (size_t i = 0; i < sizeof folders / sizeof folders[0]; i++) {
-        const fm_status status = path_join(path, folders[i], name, err);
-        if (status != FM_OK)
-            return status;
-        if (access(path, F_OK) == 0)
-            return result_files_read(reference, path, err);
-    }
-    return fm_fail(err, FM_INVALID, "no reference \"%s\" in %s; --reference none does without it",
-                   name, folders[0]);
+        return results_folder_check(name, err) != FM_OK ? FM_INVALID
+                                                        : result_files_read(reference, name, err);
+    const fm_status status = data_find(path, DATA_REFERENCES, name, "", err);
+    if (status != FM_OK)
+        return fm_error_prefix(err, "--reference none does without");
+    return result_files_read(reference, path, err);
 }
 
 /* A run is no other machine's reference of itself. */
@@ -196,6 +179,8 @@ static int make_report(arguments *given, fm_error *err)
     fm_result_files *results = NULL, *reference = NULL;
     fm_paper_figure **figures = NULL;
     const bool has_named = given->figures.count > 0;
+    if (results_folder_check(given->directory, err) != FM_OK)
+        return FM_EXIT_USAGE;
     if (result_files_read(&results, given->directory, err) != FM_OK)
         goto out;
     if (open_reference(&reference, reference_path, given, err) != FM_OK) {
@@ -223,6 +208,19 @@ out:
     return code;
 }
 
+/* Whether the figures and the reference that are asked for can be read: known before a long run. */
+static int check(const arguments *given, fm_error *err)
+{
+    char path[FM_PATH_MAX_BYTES];
+    fm_result_files *reference = NULL;
+    fm_paper_figure **figures = calloc(given->figures.count + 1, sizeof *figures);
+    const bool is_right = read_figures(figures, given, err) == FM_OK &&
+                          open_reference(&reference, path, given, err) == FM_OK;
+    close_figures(figures, given);
+    result_files_close(reference);
+    return is_right ? FM_EXIT_DONE : FM_EXIT_USAGE;
+}
+
 int main(int argc, char **argv)
 {
     static const struct argp_option options[] = {
@@ -234,6 +232,8 @@ int main(int argc, char **argv)
           "Another machine's results: curves beside ours in all charts (without this option in "
           "ratios only), and verdicts on what this machine cannot test; h100",
           0 },
+        { "check", KEY_CHECK, NULL, 0,
+          "Only say whether these figures and this reference can be read", 0 },
         { 0 },
     };
     static const struct argp argp = {
@@ -259,7 +259,7 @@ int main(int argc, char **argv)
     fm_error err = { 0 };
     argp_err_exit_status = FM_EXIT_USAGE;
     argp_parse(&argp, argc, argv, 0, NULL, &given);
-    int code = make_report(&given, &err);
+    const int code = given.only_checks ? check(&given, &err) : make_report(&given, &err);
     text_list_free(&given.figures);
     if (code != FM_EXIT_DONE)
         fprintf(stderr, "fragmark-report: %s\n", err.message);

@@ -22,6 +22,8 @@ static const struct {
     { "reproduce", "fragmark reproduce", cli_reproduce, "measures what figures of a paper show" },
     { "record", "fragmark record", cli_record,
       "a scene for the simulated GPU from what an OpenGL program draws" },
+    { "bundle", "fragmark bundle", cli_bundle,
+      "a folder with all that measuring needs, for a machine without packages" },
     { "report", "fragmark report", cli_report, "charts and report.html again from the CSV" },
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };

@@ -92,14 +92,3 @@ fm_status file_check_replaceable(const char *path, fm_error *err)
         return refuse(path, info.st_mode, FM_IO, err);
     return FM_OK;
 }
-
-fm_status file_check_folder(const char *path, const char *variable, fm_error *err)
-{
-    struct stat info;
-    if (stat(path, &info) != 0)
-        return fm_fail(err, FM_INVALID, "%s: %s: %s", variable, path, strerror(errno));
-    if (!S_ISDIR(info.st_mode))
-        return fm_fail(err, FM_INVALID, "%s: %s: is %s, not a folder", variable, path,
-                       S_ISREG(info.st_mode) ? "a file" : kind_of(info.st_mode));
-    return FM_OK;
-}

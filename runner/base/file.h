@@ -23,7 +23,5 @@ fm_status file_create(int *fd, const char *path, fm_error *err);
 fm_status file_open_append(int *fd, const char *path, fm_error *err);
 /* Whether the path is free or a regular file, so that a file may take its place. */
 fm_status file_check_replaceable(const char *path, fm_error *err);
-/* A folder that an environment's variable names is there. FM_INVALID, naming the variable. */
-fm_status file_check_folder(const char *path, const char *variable, fm_error *err);
 
 #endif

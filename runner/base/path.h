@@ -20,4 +20,11 @@ fm_status path_make_temporary(char path[FM_PATH_MAX_BYTES], const char *name, fm
 /* `name` as seen from the folder of `file`: absolute names stay. false: longer than the room. */
 bool path_beside(char *path, size_t room_bytes, const char *file, const char *name);
 
+/* FM_OK: a folder that may be read. FM_IO: "PATH: Permission denied", "PATH: is not a folder". */
+fm_status path_is_folder(const char *path, fm_error *err);
+
+/* Like mkdir -p. FM_INVALID names the folder that could not be made, and why; FM_IO: the disk is
+ * full. */
+fm_status path_make_folders(const char *path, fm_error *err);
+
 #endif

@@ -235,6 +235,8 @@ fm_status yaml_tree_read(fm_yaml **root, const char *path, fm_error *err)
     size_t count = 0;
     *root = NULL;
     fm_status status = text_read_file(&bytes, &count, path, FM_YAML_MAX_BYTES, err);
+    if (status == FM_OK && count == 0)
+        status = fm_fail(err, FM_INVALID, "%s: is empty", path);
     if (status == FM_OK)
         status = yaml_tree_parse(root, bytes, count, path, err);
     free(bytes);

@@ -35,7 +35,8 @@ typedef struct fm_yaml {
     size_t count;
 } fm_yaml;
 
-/* Reads a file; an empty one is an empty mapping. FM_IO, FM_NO_MEMORY, or FM_INVALID as above. */
+/* Reads a file; comments alone are an empty mapping. FM_IO, FM_NO_MEMORY, or FM_INVALID as above
+ * and for a file of no bytes, which is what a full disk leaves. */
 fm_status yaml_tree_read(fm_yaml **root, const char *path, fm_error *err);
 /* The same from memory; name stands for the path in messages. */
 fm_status yaml_tree_parse(fm_yaml **root, const char *bytes, size_t count, const char *name,

@@ -45,7 +45,8 @@ typedef struct fm_cli {
 
 /* One subcommand; argv[0] is "fragmark NAME". Returns the exit code. */
 typedef int fm_command(const fm_cli *cli, int argc, char **argv);
-fm_command cli_list, cli_doctor, cli_plan, cli_run, cli_reproduce, cli_record, cli_report;
+fm_command cli_list, cli_doctor, cli_plan, cli_run, cli_reproduce, cli_record, cli_report,
+    cli_bundle;
 
 /* Says what went wrong before anything was run, and returns the exit code for it: CLI_USAGE where
  * the arguments, or files that they name, are to blame. */
@@ -105,11 +106,7 @@ void cli_tell_left_out(FILE *talk, const fm_plan *plan, const fm_plugin_list *pl
 fm_status arguments_expand(fm_plan *plan, const fm_plugin_list *plugins,
                            const fm_arguments *arguments, const char *spec, fm_error *err);
 
-/* The folder of this program. */
-fm_status program_folder(char folder[FM_PATH_MAX_BYTES], fm_error *err);
-
-/* Figure files: those of FRAGMARK_FIGURE_PATH (colons), then `figures` beside the program (build
- * tree), then ../share/fragmark/figures (install tree); the first of an id wins. */
+/* Figure files in the folders of base/data.h; the first of an id wins. */
 typedef struct fm_figure {
     char id[64]; /* the file's name without .yml */
     char path[FM_PATH_MAX_BYTES];
@@ -159,6 +156,12 @@ bool report_find(char path[FM_PATH_MAX_BYTES]);
 /* Executes it on a folder, with another machine's results where reference is not NULL; its exit
  * status, or -1 when it could not be executed. */
 int report_execute(const char *program, const char *directory, const char *reference);
+/* Before anything is measured: FM_INVALID or FM_IO if the reference that is asked for, or a figure
+ * that the report is to draw, cannot be read. Says so if there is no fragmark-report. figures: ids,
+ * ends with NULL. */
+fm_status report_expect(const fm_arguments *arguments, const char *const *figures, fm_error *err);
+/* Why there is no fragmark-report here: the beginning of a sentence. */
+const char *report_missing(void);
 
 /* Seconds that a plan may take; a guess from the number of fragments. */
 double plan_seconds(const fm_plan *plan);

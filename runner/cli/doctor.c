@@ -2,6 +2,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/data.h"
 #include "cli.h"
 #include "parent/machine.h"
 #include "scene/scene_file.h"
@@ -194,7 +195,7 @@ static json_t *facts_json(const fm_device_list *devices)
 {
     char program[FM_PATH_MAX_BYTES] = "", report[FM_PATH_MAX_BYTES];
     json_t *methods = methods_facts(); /* before drivers have threads */
-    if (program_folder(program, NULL) != FM_OK)
+    if (data_program_folder(program, NULL) != FM_OK)
         snprintf(program, sizeof program, "unknown");
     return json_pack("{s:s, s:o, s:o, s:b, s:s, s:o, s:o, s:o, s:s?}", "fragmark", FM_VERSION,
                      "machine", machine_facts(), "devices", devices_json(devices),
@@ -293,8 +294,7 @@ static void write_facts(FILE *out, const json_t *facts)
     if (text_of(facts, "report")[0] != '\0')
         fprintf(out, "  report    %s\n", text_of(facts, "report"));
     else
-        fprintf(out, "  report    fragmark-report is missing; to fix it: apt install libvtk9-dev "
-                     "libopenimageio-dev librsvg2-dev, and build again\n");
+        fprintf(out, "  report    none: %s\n", report_missing());
     write_machine(out, json_object_get(facts, "machine"));
     json_array_foreach(json_object_get(facts, "devices"), index, device) write_device(out, device);
     if (json_is_true(json_object_get(facts, "validation_layer")))

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/file.h"
+#include "base/data.h"
 #include "cli.h"
 #include "model/figure_file.h"
 
@@ -93,27 +93,12 @@ static fm_status add_folder(fm_figure_list *list, const char *folder, fm_error *
 
 fm_status figures_list(fm_figure_list *list, fm_error *err)
 {
-    static const char *const beside[] = { "figures", "../share/fragmark/figures" };
-    char program[FM_PATH_MAX_BYTES], folder[2 * FM_PATH_MAX_BYTES];
-    const char *search = getenv("FRAGMARK_FIGURE_PATH");
-    fm_status status = FM_OK;
+    fm_text_list folders = { 0 };
     *list = (fm_figure_list){ 0 };
-    while (search != NULL && *search != '\0' && status == FM_OK) {
-        const size_t length = strcspn(search, ":");
-        if (length > 0 && length < sizeof folder) {
-            snprintf(folder, sizeof folder, "%.*s", (int)length, search);
-            status = file_check_folder(folder, "FRAGMARK_FIGURE_PATH", err);
-            if (status == FM_OK)
-                status = add_folder(list, folder, err);
-        }
-        search += length + (search[length] == ':');
-    }
-    if (status == FM_OK)
-        status = program_folder(program, err);
-    for (size_t i = 0; i < sizeof beside / sizeof beside[0] && status == FM_OK; i++) {
-        snprintf(folder, sizeof folder, "%s/%s", program, beside[i]);
-        status = add_folder(list, folder, err);
-    }
+    fm_status status = data_folders(&folders, DATA_FIGURES, err);
+    for (size_t i = 0; i < folders.count && status == FM_OK; i++)
+        status = add_folder(list, folders.items[i], err);
+    text_list_free(&folders);
     if (status == FM_OK && list->count > 0)
         qsort(list->figures, list->count, sizeof *list->figures, compare_ids);
     else

@@ -127,7 +127,7 @@ static int list_devices(const list_arguments *arguments)
         size_t count = DEVICES_MAX;
         fm_error err = { 0 };
         if (ops->list(entries, &count, &err) != FM_OK) {
-            fprintf(cli->talk, "%s: %s\n", ops->name, err.message);
+            fprintf(cli->talk, "%s\n", err.message); /* begins with the name */
             continue;
         }
         for (size_t i = 0; i < count && i < DEVICES_MAX; i++) {

@@ -5,7 +5,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "child.h"
+#include "base/data.h"
+#include "child/child.h"
 #include "cli.h"
 #include "scene/frame_stream.h"
 
@@ -143,24 +144,15 @@ static void close_folder(const recording *r, bool keeps_log)
     rmdir(r->folder);
 }
 
-/* The recorder, as built beside the program or as installed. */
+/* The folder of the recorder. */
 static fm_status find_recorder(char folder[FM_PATH_MAX_BYTES], fm_error *err)
 {
-    static const char *const places[] = { "record", "../lib/fragmark/record" };
-    char program[FM_PATH_MAX_BYTES], path[2 * FM_PATH_MAX_BYTES];
-    const fm_status status = program_folder(program, err);
-    for (size_t i = 0; i < sizeof places / sizeof places[0] && status == FM_OK; i++) {
-        snprintf(path, sizeof path, "%s/%s/libGL.so.1", program, places[i]);
-        if (access(path, R_OK) == 0 && strlen(path) < FM_PATH_MAX_BYTES) {
-            *strrchr(path, '/') = '\0';
-            snprintf(folder, FM_PATH_MAX_BYTES, "%.*s", FM_PATH_MAX_BYTES - 1, path);
-            return FM_OK;
-        }
-    }
-    return status != FM_OK ? status
-                           : fm_fail(err, FM_UNSUPPORTED,
-                                     "built without the recorder; on Debian: apt-get install "
-                                     "libgl-dev libx11-dev, then configure and build again");
+    if (data_find(folder, DATA_RECORDER, "libGL", ".so.1", err) != FM_OK)
+        return fm_fail(err, FM_UNSUPPORTED,
+                       "built without the recorder; on Debian: apt-get install "
+                       "libgl-dev libx11-dev, then configure and build again");
+    *strrchr(folder, '/') = '\0';
+    return FM_OK;
 }
 
 /* ---- the screen ---- */

@@ -6,19 +6,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/data.h"
 #include "cli.h"
 
 extern char **environ;
-
-fm_status program_folder(char folder[FM_PATH_MAX_BYTES], fm_error *err)
-{
-    const ssize_t length = readlink("/proc/self/exe", folder, FM_PATH_MAX_BYTES - 1);
-    if (length <= 0 || length == FM_PATH_MAX_BYTES - 1)
-        return fm_fail(err, FM_IO, "/proc/self/exe cannot be read");
-    folder[length] = '\0';
-    *strrchr(folder, '/') = '\0';
-    return FM_OK;
-}
 
 static bool is_program(char path[FM_PATH_MAX_BYTES], const char *folder, size_t folder_length)
 {
@@ -33,14 +24,8 @@ bool report_find(char path[FM_PATH_MAX_BYTES])
 {
     char folder[FM_PATH_MAX_BYTES];
     const char *search = getenv("PATH");
-    if (program_folder(folder, NULL) == FM_OK) {
-        if (is_program(path, folder, strlen(folder)))
-            return true;
-        /* The build tree keeps each room's program in the room. */
-        strncat(folder, "/reports", sizeof folder - strlen(folder) - 1);
-        if (is_program(path, folder, strlen(folder)))
-            return true;
-    }
+    if (data_program_folder(folder, NULL) == FM_OK && is_program(path, folder, strlen(folder)))
+        return true;
     while (search != NULL && *search != '\0') {
         const size_t length = strcspn(search, ":");
         if (length > 0 && is_program(path, search, length))
@@ -50,23 +35,90 @@ bool report_find(char path[FM_PATH_MAX_BYTES])
     return false;
 }
 
-int report_execute(const char *program, const char *directory, const char *reference)
+/* Executes argv[0]; its exit status, or -1 when it could not be executed. */
+static int execute(const char *const *argv)
 {
     pid_t pid;
     int status = 0;
-    char *const argv[] = { strdup(program), strdup(directory),
-                           reference != NULL ? strdup("--reference") : NULL,
-                           reference != NULL ? strdup(reference) : NULL, NULL };
-    const bool has_all = argv[0] != NULL && argv[1] != NULL &&
-                         (reference == NULL || (argv[2] != NULL && argv[3] != NULL));
-    const bool is_started = has_all && posix_spawn(&pid, program, NULL, NULL, argv, environ) == 0;
-    while (is_started && waitpid(pid, &status, 0) < 0 && errno == EINTR)
-        continue;
-    for (size_t i = 0; i < sizeof argv / sizeof argv[0]; i++)
-        free(argv[i]);
-    if (!is_started)
+    char *const *passed = (char *const *)(const void *)argv; /* posix_spawn changes none */
+    if (posix_spawn(&pid, argv[0], NULL, NULL, passed, environ) != 0)
         return -1;
+    while (waitpid(pid, &status, 0) < 0 && errno == EINTR)
+        continue;
     return WIFEXITED(status) ? WEXITSTATUS(status) : CLI_SIGNAL + WTERMSIG(status);
+}
+
+int report_execute(const char *program, const char *directory, const char *reference)
+{
+    const char *const argv[] = { program, directory, reference != NULL ? "--reference" : NULL,
+                                 reference, NULL };
+    return execute(argv);
+}
+
+/* Has the program itself try whatever it is to draw. */
+static fm_status check_inputs(const char *program, const char *reference,
+                              const char *const *figures, fm_error *err)
+{
+    size_t count = 0, used = 0;
+    while (figures[count] != NULL)
+        count++;
+    const char **argv = calloc(2 * count + 5, sizeof *argv);
+    if (argv == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "no memory for %zu figures", count);
+    argv[used++] = program;
+    argv[used++] = "--check";
+    for (size_t i = 0; i < count; i++) {
+        argv[used++] = "--figure";
+        argv[used++] = figures[i];
+    }
+    if (reference != NULL) {
+        argv[used++] = "--reference";
+        argv[used++] = reference;
+    }
+    const int code = execute(argv);
+    free(argv);
+    return code == CLI_DONE ? FM_OK
+                            : fm_fail(err, FM_INVALID,
+                                      "nothing was measured: %s could not draw the report (%d); "
+                                      "with --no-report it is left out",
+                                      program, code);
+}
+
+/* A name of ours, a folder with results, or none. */
+static fm_status check_reference(const char *reference, fm_error *err)
+{
+    char path[FM_PATH_MAX_BYTES];
+    if (reference == NULL || strcmp(reference, "none") == 0)
+        return FM_OK;
+    const fm_status status = strchr(reference, '/') != NULL
+                                 ? path_is_folder(reference, err)
+                                 : data_find(path, DATA_REFERENCES, reference, "", err);
+    return status == FM_OK ? FM_OK : fm_error_prefix(err, "--reference");
+}
+
+fm_status report_expect(const fm_arguments *arguments, const char *const *figures, fm_error *err)
+{
+    char program[FM_PATH_MAX_BYTES];
+    const fm_status status = check_reference(arguments->reference, err);
+    if (status != FM_OK || arguments->no_report)
+        return status;
+    if (report_find(program))
+        return figures[0] != NULL || arguments->reference != NULL
+                   ? check_inputs(program, arguments->reference, figures, err)
+                   : FM_OK;
+    fprintf(arguments->cli->talk,
+            "%s: no charts and no report.html will be made; `fragmark report` "
+            "draws them where it is\n",
+            report_missing());
+    return FM_OK;
+}
+
+const char *report_missing(void)
+{
+    return data_is_bundle()
+               ? "a bundle has no fragmark-report"
+               : "fragmark-report is neither beside this program nor in PATH (it needs "
+                 "libvtk9-dev, libopenimageio-dev and librsvg2-dev where it is built)";
 }
 
 typedef struct report_arguments {
@@ -121,9 +173,7 @@ int cli_report(const fm_cli *cli, int argc, char **argv)
     report_arguments given = { 0 };
     argp_parse(&argp, argc, argv, 0, NULL, &given);
     if (!report_find(program)) {
-        fprintf(cli->talk, "fragmark: fragmark-report is neither beside this program nor in PATH; "
-                           "it is built where libvtk9-dev, libopenimageio-dev and librsvg2-dev "
-                           "are installed\n");
+        fprintf(cli->talk, "fragmark: %s\n", report_missing());
         return CLI_NOTHING;
     }
     const int code = report_execute(program, given.directory, given.reference);

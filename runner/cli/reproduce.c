@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/path.h"
 #include "cli.h"
 #include "parent/run.h"
 #include "plan/memory_table.h"
@@ -258,7 +259,7 @@ static fm_status write_figure_cases(const char *directory, const fm_text *csv, f
     snprintf(path, sizeof path, "%s/figures.csv", directory);
     if (access(path, F_OK) == 0)
         return FM_OK;
-    const fm_status status = run_make_folder(directory, err);
+    const fm_status status = path_make_folders(directory, err);
     if (status != FM_OK)
         return status;
     return csv->failed ? fm_fail(err, FM_NO_MEMORY, "%s", path)
@@ -344,6 +345,7 @@ static int run_specs(const spec_files *specs, const fm_arguments *arguments)
                                 .memory = &memory };
     if (make_plan(&plan, &plugins, arguments, specs, &err) != FM_OK ||
         make_tables(&memory, arguments->cli, specs, &plugins, &err) != FM_OK ||
+        report_expect(arguments, desc.figures, &err) != FM_OK ||
         assign_cases(&plan, directory, specs, arguments, &plugins, &err) != FM_OK)
         code = cli_fail(arguments->cli, &err);
     else

@@ -72,11 +72,8 @@ static int report(const fm_arguments *arguments, const char *directory)
 {
     const fm_cli *cli = arguments->cli;
     char program[FM_PATH_MAX_BYTES];
-    if (!report_find(program)) {
-        fprintf(cli->talk, "fragmark-report is not here (it needs VTK and OpenImageIO): no charts "
-                           "and no report.html; the CSV files are complete\n");
-        return CLI_DONE;
-    }
+    if (!report_find(program))
+        return CLI_DONE; /* report_expect has told */
     const int code = report_execute(program, directory, arguments->reference);
     if (code == CLI_DONE || code == CLI_CLAIM_FAILS)
         return code;
@@ -220,7 +217,8 @@ int cli_run(const fm_cli *cli, int argc, char **argv)
     argp_parse(&argp, argc, argv, 0, NULL, &arguments);
     cli_directory(directory, &arguments);
     if (arguments_plan(&plan, &plugins, &arguments, text_list_items(&arguments.positional), &err) !=
-        FM_OK)
+            FM_OK ||
+        report_expect(&arguments, none, &err) != FM_OK)
         code = cli_fail(cli, &err);
     else {
         const cli_run_desc desc = { .directory = directory,

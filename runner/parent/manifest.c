@@ -188,3 +188,8 @@ fm_status manifest_write(const fm_manifest_desc *desc, fm_error *err)
     json_decref(manifest);
     return status;
 }
+
+const char *manifest_commit(void)
+{
+    return FM_GIT_COMMIT;
+}

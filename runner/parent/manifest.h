@@ -15,6 +15,9 @@ typedef struct fm_manifest_desc {
 /* Writes DIRECTORY/manifest.json anew, atomically. */
 fm_status manifest_write(const fm_manifest_desc *desc, fm_error *err);
 
+/* The commit of the sources of this program; "" when unknown. */
+const char *manifest_commit(void);
+
 /* A method's descriptor for readers of results: title, citation, version, family, marker, dashed,
  * traits, and the defaults of its options. NULL without memory. */
 json_t *method_json(const fm_method_desc *method);

@@ -59,10 +59,6 @@ typedef struct fm_run_result {
     bool is_other_code;  /* FM_INVALID because a row was begun with other code than is here now */
 } fm_run_result;
 
-/* Makes a folder, and those above it. FM_INVALID: it cannot be made, with the one that it fails at;
- * FM_IO: the disk is full. */
-fm_status run_make_folder(const char *path, fm_error *err);
-
 /* Runs all launches that an earlier run in the same directory has not finished. Before the first
  * one, each row of that run is compared with the code that is here now, finished ones too.
  * FM_INVALID: nothing was run: no floor method, the directory belongs to another plan, is in use,

@@ -14,35 +14,6 @@ fm_status run_path(char path[FM_PATH_MAX_BYTES], const run_state *run, const cha
     return path_join(path, run->desc->directory, inside, err);
 }
 
-static fm_status make_part(const char *path, fm_error *err)
-{
-    struct stat info;
-    if (mkdir(path, 0777) == 0)
-        return FM_OK;
-    const int cause = errno;
-    const bool is_there = stat(path, &info) == 0;
-    if (is_there && S_ISDIR(info.st_mode))
-        return FM_OK;
-    /* A full disk is not what was asked for wrongly. */
-    return fm_fail(err, cause == ENOSPC || cause == EDQUOT ? FM_IO : FM_INVALID,
-                   is_there ? "%s: is there, and is no folder" : "%s: cannot be made: %s", path,
-                   strerror(cause));
-}
-
-fm_status run_make_folder(const char *path, fm_error *err)
-{
-    char part[FM_PATH_MAX_BYTES];
-    fm_status status = FM_OK;
-    snprintf(part, sizeof part, "%s", path);
-    for (char *slash = strchr(part + 1, '/'); slash != NULL && status == FM_OK;
-         slash = strchr(slash + 1, '/')) {
-        *slash = '\0';
-        status = make_part(part, err);
-        *slash = '/';
-    }
-    return status == FM_OK ? make_part(part, err) : status;
-}
-
 fm_status run_make_folders(const run_state *run, fm_error *err)
 {
     static const char *const folders[] = { "work", "truth", "images" };
@@ -57,7 +28,7 @@ fm_status run_make_folders(const run_state *run, fm_error *err)
             continue;
         status = run_path(path, run, folders[i], "", "", err);
         if (status == FM_OK)
-            status = run_make_folder(path, err);
+            status = path_make_folders(path, err);
     }
     return status;
 }

@@ -7,12 +7,10 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/data.h"
 #include "base/text.h"
 #include "model/feeds.h"
 #include "plugin.h"
-
-/* Where plugins lie, beside what is given and FRAGMARK_PLUGIN_PATH. */
-static const char *const beside_executable[] = { "methods", "../lib/fragmark/methods" };
 
 typedef char path_text[2 * FM_PATH_MAX_BYTES];
 
@@ -69,7 +67,8 @@ static fm_status scan_folder(fm_plugin_list *list, const char *folder, fm_error 
     struct dirent **names = NULL;
     const int count = scandir(folder, &names, NULL, alphasort);
     if (count < 0)
-        return fm_fail(err, FM_IO, "plugin folder %s: %s", folder, strerror(errno));
+        return fm_fail(err, FM_IO, "plugin folder %s: %s", folder,
+                       errno == ENOTDIR ? "is not a folder" : strerror(errno));
     for (int i = 0; i < count; i++) {
         if (status == FM_OK)
             status = scan_entry(list, folder, names[i]->d_name, err);
@@ -77,41 +76,6 @@ static fm_status scan_folder(fm_plugin_list *list, const char *folder, fm_error 
     }
     free(names);
     return status;
-}
-
-/* A list of folders with colons between them; empty parts are skipped. */
-static fm_status visit_path(fm_plugin_list *list, const char *folders, folder_visit *visit,
-                            fm_error *err)
-{
-    fm_status status = FM_OK;
-    char *copy = strdup(folders), *rest = copy;
-    if (copy == NULL)
-        return fm_fail(err, FM_NO_MEMORY, "FRAGMARK_PLUGIN_PATH");
-    for (char *part = strtok_r(copy, ":", &rest); part != NULL && status == FM_OK;
-         part = strtok_r(NULL, ":", &rest))
-        status = visit(list, part, err);
-    free(copy);
-    return status == FM_OK ? FM_OK : fm_error_prefix(err, "FRAGMARK_PLUGIN_PATH");
-}
-
-/* Folders that may be missing. */
-static fm_status visit_beside_executable(fm_plugin_list *list, folder_visit *visit, fm_error *err)
-{
-    char executable[FM_PATH_MAX_BYTES];
-    path_text folder;
-    const ssize_t length = readlink("/proc/self/exe", executable, sizeof executable - 1);
-    if (length <= 0)
-        return FM_OK;
-    executable[length] = '\0';
-    *strrchr(executable, '/') = '\0';
-    for (size_t i = 0; i < sizeof beside_executable / sizeof beside_executable[0]; i++) {
-        if (!join(folder, executable, beside_executable[i]) || access(folder, R_OK | X_OK) != 0)
-            continue;
-        const fm_status status = visit(list, folder, err);
-        if (status != FM_OK)
-            return status;
-    }
-    return FM_OK;
 }
 
 static int compare_entries(const void *left, const void *right)
@@ -122,13 +86,16 @@ static int compare_entries(const void *left, const void *right)
 static fm_status visit_folders(fm_plugin_list *list, const char *const *extra, folder_visit *visit,
                                fm_error *err)
 {
+    fm_text_list folders = { 0 };
     fm_status status = FM_OK;
     for (; extra != NULL && *extra != NULL && status == FM_OK; extra++)
         status = visit(list, *extra, err);
-    const char *folders = getenv("FRAGMARK_PLUGIN_PATH");
-    if (status == FM_OK && folders != NULL)
-        status = visit_path(list, folders, visit, err);
-    return status == FM_OK ? visit_beside_executable(list, visit, err) : status;
+    if (status == FM_OK)
+        status = data_folders(&folders, DATA_METHODS, err);
+    for (size_t i = 0; i < folders.count && status == FM_OK; i++)
+        status = visit(list, folders.items[i], err);
+    text_list_free(&folders);
+    return status;
 }
 
 fm_status plugin_list_open(fm_plugin_list *list, const char *const *extra, fm_error *err)

@@ -7,6 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/data.h"
 #include "base/file.h"
 #include "base/path.h"
 #include "base/text.h"
@@ -18,32 +19,6 @@ enum { DESCRIBED_COUNT = sizeof described / sizeof described[0] };
 static fm_status no_memory(fm_error *err)
 {
     return fm_fail(err, FM_NO_MEMORY, "no memory for the names of scenes");
-}
-
-/* FRAGMARK_SCENE_PATH, then beside the executable, then where an installed one has them. */
-static fm_status scene_folders(fm_text_list *folders, fm_error *err)
-{
-    static const char *const beside[] = { "scenes", "../share/fragmark/scenes" };
-    char executable[PATH_MAX] = "", folder[PATH_MAX];
-    static const char name[] = "FRAGMARK_SCENE_PATH";
-    const char *variable = getenv(name);
-    char *copy = strdup(variable != NULL ? variable : ""), *rest = copy;
-    fm_status status = FM_OK;
-    bool is_whole = copy != NULL;
-    for (char *item; is_whole && status == FM_OK && (item = strsep(&rest, ":")) != NULL;) {
-        if (*item == '\0')
-            continue;
-        status = file_check_folder(item, name, err);
-        is_whole = text_list_add(folders, item);
-    }
-    free(copy);
-    if (status != FM_OK)
-        return status;
-    if (readlink("/proc/self/exe", executable, sizeof executable - 1) > 0)
-        for (size_t i = 0; is_whole && i < sizeof beside / sizeof beside[0]; i++)
-            if (path_beside(folder, sizeof folder, executable, beside[i]))
-                is_whole = text_list_add(folders, folder);
-    return is_whole ? FM_OK : no_memory(err);
 }
 
 static bool is_yaml_name(const char *name)
@@ -110,10 +85,9 @@ fm_status scene_names_list(fm_scene_names *names, fm_error *err)
 {
     fm_text_list folders = { 0 };
     *names = (fm_scene_names){ 0 };
-    fm_status status = scene_folders(&folders, err);
+    fm_status status = data_folders(&folders, DATA_SCENES, err);
     for (size_t i = 0; status == FM_OK && i < folders.count; i++)
-        if (access(folders.items[i], R_OK | X_OK) == 0)
-            status = list_folder(names, folders.items[i], err);
+        status = list_folder(names, folders.items[i], err);
     text_list_free(&folders);
     if (status != FM_OK)
         scene_names_free(names);

@@ -89,4 +89,8 @@ echo "killed after $done_before of $done_after launches"
 [ "$done_before" -lt "$done_after" ] || complain "killed: the run was over before it was killed"
 [ "$(rows_of whole)" = "$(rows_of killed)" ] ||
     complain "killed: other rows: $(diff <(rows_of whole) <(rows_of killed))"
+# An option that only a refused plugin could know is not called unknown.
+"$program" plan --plugin-dir "$plugins" --method wrong-abi -a depth_scale=3 >"$here/out" 2>&1
+[ $? -eq 2 ] && grep -q "method 'wrong-abi' is refused: .*abi" "$here/out" ||
+    complain "an option of a refused plugin"
 exit "$failed"

@@ -123,7 +123,67 @@ if [ -x "$(dirname "$program")/fragmark-report" ]; then
     check report_that_fails_is_told 5 "again with" "$program" run --method z-buffer --device dummy \
         -a n=4 -a width_px=16 -a height_px=16 -a frames=1 -a launches=1 --no-images -o "$here/blocked"
 fi
+# What is asked for and missing is told before anything is measured, and nothing is left.
+plain() { "$program" run --method z-buffer "${small[@]}" -a launches=1 -o "$here/absent" "$@"; }
+table() { "$program" reproduce kplus-table1 -o "$here/absent" "$@"; }
+check missing_reference_is_told_first 2 "the nearest is 'h100'" table --reference h10
+check missing_reference_without_a_report_too 2 "the nearest is 'h100'" table --reference h10 --no-report
+check missing_reference_folder_is_told_first 2 "$here/none: No such file" table --reference "$here/none"
+if [ -x "$(dirname "$program")/fragmark-report" ]; then
+    mkdir "$here/undrawn"
+    sed 's/x: k, //' "$here/two/one-1.yml" >"$here/undrawn/one-1.yml"
+    check figure_that_cannot_be_drawn_is_told_first 2 "nothing was measured" \
+        env FRAGMARK_FIGURE_PATH="$here/undrawn" "$program" reproduce one-1 --device dummy -o "$here/absent"
+fi
+for kind in PLUGIN SCENE FIGURE REFERENCE; do
+    check "folder_in_${kind}_PATH_that_is_missing_is_told" 2 "FRAGMARK_${kind}_PATH: $here/none: No such file" \
+        env "FRAGMARK_${kind}_PATH=$here/none" "$program" reproduce kplus-03 --smoke --device dummy \
+        --reference h100 --no-report -o "$here/absent"
+done
+[ -e "$here/absent" ] && complain "what is missing is told first: a folder was made"
 check report_needs_a_folder 2 "which DIR" "$program" report
+
+# Folders and files that are not what they are taken for.
+mkdir -p "$here/wrong/empty" "$here/wrong/runs/one"
+: >"$here/wrong/file.yml"
+echo words >"$here/wrong/text"
+echo 'schema' >"$here/wrong/runs/one/summary.csv"
+if [ -x "$(dirname "$program")/fragmark-report" ]; then
+    check report_of_no_folder 2 "wrong/none: No such file" "$program" report "$here/wrong/none"
+    check report_of_a_file 2 "wrong/text: is not a folder" "$program" report "$here/wrong/text"
+    check report_of_an_empty_folder 2 "wrong/empty: is empty" "$program" report "$here/wrong/empty"
+    check report_of_a_folder_of_runs 2 "did you mean $here/wrong/runs/one?" "$program" report "$here/wrong/runs"
+    check report_of_a_folder_without_results 2 "holds no results: no summary.csv" "$program" report "$here/wrong"
+    check reference_that_holds_nothing 2 "wrong/empty: is empty" table --reference "$here/wrong/empty"
+fi
+check empty_scene_is_refused 2 "file.yml: is empty" plain --scene "$here/wrong/file.yml"
+check empty_spec_is_refused 2 "file.yml: is empty" plain "$here/wrong/file.yml"
+check plugin_folder_that_is_a_file 2 "wrong/text: is not a folder" plain --plugin-dir "$here/wrong/text"
+check output_that_is_a_file 2 "wrong/text: is not a folder" "$program" reproduce kplus-table1 --no-report \
+    -o "$here/wrong/text"
+check output_below_what_is_not_there 0 "0 differ" "$program" reproduce kplus-table1 --no-report -o "$here/wrong/a/b"
+
+# Who may not read or write is told so; root may all.
+mkdir -m 000 "$here/barred"
+printf 'generator: layers\n' >"$here/barred.yml"
+chmod 000 "$here/barred.yml"
+chmod 711 "$here"
+as_nobody() {
+    if [ "$(id -u)" -eq 0 ]; then setpriv --reuid=65534 --regid=65534 --clear-groups "$@"; else "$@"; fi
+}
+if as_nobody test -x "$program"; then
+    check barred_plugin_folder 2 "barred: Permission denied" as_nobody "$program" list methods --plugin-dir "$here/barred"
+    check barred_scene_folder 2 "barred: Permission denied" as_nobody env FRAGMARK_SCENE_PATH="$here/barred" \
+        "$program" list scenes
+    for what in --scene ""; do
+        check "barred_file_after_run_$what" 2 "barred.yml: Permission denied" as_nobody "$program" run \
+            --method z-buffer "${small[@]}" $what "$here/barred.yml" -o "$here/barred/x"
+    done
+    check barred_output 2 "barred/x: cannot be made: Permission denied" as_nobody "$program" reproduce kplus-table1 \
+        --no-report -o "$here/barred/x"
+    check barred_reference 2 "barred: Permission denied" as_nobody "$program" reproduce kplus-table1 --no-report \
+        --reference "$here/barred" -o "$here/absent"
+fi
 
 run() { "$program" run --method kplus-array,z-buffer "${small[@]}" -a launches="$1" -o "$here/$2"; }
 check run_measures 0 "2 ok" run 2 first

@@ -7,6 +7,11 @@ if linked=$(ldd "$1" | grep -E 'libvtk|libOpenImageIO'); then
     printf '%s links what only fragmark-report may:\n%s\n' "$1" "$linked"
     exit 1
 fi
+# libOSMesa loads LLVM, and is not everywhere: the device opens it.
+if linked=$(ldd "$1" | grep -E 'libOSMesa|libLLVM'); then
+    printf '%s does not start where there is no libOSMesa:\n%s\n' "$1" "$linked"
+    exit 1
+fi
 [ -n "${2-}" ] || exit 0
 # What the program itself asks for: VTK brings libraries of its own.
 if linked=$(readelf -d "$2" | grep -E 'NEEDED.*(libvulkan|libOSMesa|libassimp|libqhull)'); then

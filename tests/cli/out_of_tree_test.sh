@@ -1,10 +1,9 @@
 #!/usr/bin/env bash
-# out_of_tree_test.sh BUILD CMAKE: installs BUILD into a folder of its own, builds the plugin of
-# tests/out_of_tree against it, and runs it with the installed program.
+# out_of_tree_test.sh BUILD CMAKE: installs BUILD into a folder of its own, builds the template that is
+# installed with it (tests/out_of_tree), and runs it with the installed program.
 set -euo pipefail
 build=$1
 cmake=$2
-source_folder=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)/out_of_tree
 temporary=$(mktemp -d)
 trap 'rm -rf "$temporary"' EXIT
 # The installed program must find its own files, not those of this tree.
@@ -13,7 +12,7 @@ unset FRAGMARK_PLUGIN_PATH FRAGMARK_SCENE_PATH FRAGMARK_SOURCE_DIR
 prefix=$temporary/prefix
 "$cmake" --install "$build" --prefix "$prefix" >/dev/null
 # A copy: nothing may lead from the plugin back into this tree.
-cp -r "$source_folder" "$temporary/plugin"
+cp -r "$prefix/share/fragmark/template" "$temporary/plugin"
 "$cmake" -S "$temporary/plugin" -B "$temporary/build" -DCMAKE_PREFIX_PATH="$prefix" >/dev/null
 "$cmake" --build "$temporary/build" >/dev/null
 plugins=$temporary/build/methods

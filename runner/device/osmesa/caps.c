@@ -86,7 +86,7 @@ static uint32_t find_subgroup_size(const char *renderer)
     return bits / 32;
 }
 
-void osmesa_caps_find(fm_device_caps *caps, const fm_gl *gl)
+void osmesa_caps_find(fm_device_caps *caps, const fm_gl *gl, const osmesa_library *library)
 {
     GLint64 storage_bytes = 0;
     gl->GetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &storage_bytes);
@@ -115,7 +115,7 @@ void osmesa_caps_find(fm_device_caps *caps, const fm_gl *gl)
     const char *mesa = strstr(version, "Mesa");
     snprintf(caps->name, sizeof caps->name, "%s", (const char *)gl->GetString(GL_RENDERER));
     snprintf(caps->driver, sizeof caps->driver, "%s", mesa != NULL ? mesa : version);
-    library_build(caps->driver_build, sizeof caps->driver_build, (uintptr_t)OSMesaGetProcAddress);
+    library_build(caps->driver_build, sizeof caps->driver_build, (uintptr_t)library->function);
     snprintf(caps->api, sizeof caps->api, "OpenGL %d.%d (core)", get_integer(gl, GL_MAJOR_VERSION),
              get_integer(gl, GL_MINOR_VERSION));
 }

@@ -71,7 +71,8 @@ typedef struct osmesa_limits {
 /* The device. What OpenGL made for it, but for buffers, images and pipelines, ends with its
  * context. */
 typedef struct osmesa {
-    fm_device base;        /* first: a fm_device is cast to this */
+    fm_device base; /* first: a fm_device is cast to this */
+    osmesa_library library;
     OSMesaContext context; /* current on the thread that called osmesa_current last */
     unsigned char window[OSMESA_WINDOW_PX * OSMESA_WINDOW_PX * 4];
     fm_gl gl; /* entry points */
@@ -100,7 +101,7 @@ osmesa *osmesa_current(fm_device *device);
 
 /* caps.c. The context must be current. */
 void osmesa_limits_find(osmesa_limits *limits, const fm_gl *gl);
-void osmesa_caps_find(fm_device_caps *caps, const fm_gl *gl);
+void osmesa_caps_find(fm_device_caps *caps, const fm_gl *gl, const osmesa_library *library);
 
 /* format.c. What OpenGL calls a format, and how images of it are attached and cleared. */
 typedef struct osmesa_format {

@@ -12,10 +12,10 @@ static const struct {
 #undef ENTRY_POINT
 };
 
-fm_status gl_load(fm_gl *gl, fm_error *err)
+fm_status gl_load(fm_gl *gl, const osmesa_library *library, fm_error *err)
 {
     for (size_t i = 0; i < sizeof entry_points / sizeof entry_points[0]; i++) {
-        const OSMESAproc function = OSMesaGetProcAddress(entry_points[i].name);
+        const OSMESAproc function = library->function(entry_points[i].name);
         if (function == NULL)
             return fm_fail(err, FM_IO, "osmesa: this libOSMesa has no %s", entry_points[i].name);
         memcpy((char *)gl + entry_points[i].offset, &function, sizeof function);

@@ -11,6 +11,7 @@
 #include <GL/glext.h>
 
 #include "base/error.h"
+#include "library.h"
 
 #define FM_GL_FUNCTIONS(X)                                                                         \
     X(AttachShader)                                                                                \
@@ -109,7 +110,7 @@ typedef struct fm_gl {
 } fm_gl;
 
 /* Fills the table; a context must be current. FM_UNSUPPORTED names a function that is missing. */
-fm_status gl_load(fm_gl *gl, fm_error *err);
+fm_status gl_load(fm_gl *gl, const osmesa_library *library, fm_error *err);
 
 /* "GL_INVALID_OPERATION", or "an unknown OpenGL error". */
 const char *gl_error_name(GLenum code);

@@ -1,5 +1,6 @@
 #include "osmesa.h"
 
+#include <dlfcn.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,8 +9,14 @@
 
 static fm_status list_devices(fm_device_entry *entries, size_t *count, fm_error *err)
 {
-    (void)err;
-    if (*count > 0) {
+    osmesa_library library;
+    const size_t room = *count;
+    *count = 0;
+    const fm_status status = osmesa_library_open(&library, err);
+    if (status != FM_OK)
+        return status;
+    dlclose(library.handle);
+    if (room > 0) {
         snprintf(entries[0].selector, sizeof entries[0].selector, "osmesa");
         snprintf(entries[0].name, sizeof entries[0].name, "OpenGL by OSMesa (Mesa llvmpipe)");
         *count = 1;
@@ -56,7 +63,9 @@ static void close_device(fm_device *device)
         return;
     osmesa *self = (osmesa *)device;
     if (self->context != NULL) /* its framebuffers and queries go with it */
-        OSMesaDestroyContext(self->context);
+        self->library.destroy_context(self->context);
+    if (self->library.handle != NULL)
+        dlclose(self->library.handle);
     free(self);
 }
 
@@ -76,7 +85,7 @@ static fm_status open_device(fm_device **device, const fm_device_desc *desc, fm_
     self->base.ops = &osmesa_device;
     self->no_timers = desc->no_timers;
     osmesa_limits_find(&self->limits, &self->gl);
-    osmesa_caps_find(&self->base.caps, &self->gl);
+    osmesa_caps_find(&self->base.caps, &self->gl, &self->library);
     set_constant_state(self, desc);
     *device = &self->base;
     self = NULL;

@@ -39,7 +39,17 @@ static size_t count_texts(const char *const *texts)
     return count;
 }
 
-/* The added ones first: of two with one name the first is found. The caller frees the list. */
+static bool has_name_of(const char *entry, const char *const *added)
+{
+    const size_t length = strcspn(entry, "=") + 1;
+    for (; added != NULL && *added != NULL; added++)
+        if (strncmp(*added, entry, length) == 0)
+            return true;
+    return false;
+}
+
+/* Each name once: of two, getenv takes the first, and the loader of libraries the last. The caller
+ * frees the list. */
 static const char **make_environment(const char *const *added)
 {
     const char *const *ours = (const char *const *)environ;
@@ -49,8 +59,9 @@ static const char **make_environment(const char *const *added)
         return NULL;
     for (size_t i = 0; i < more; i++)
         made[i] = added[i];
-    for (size_t i = 0; i < all; i++)
-        made[more + i] = ours[i];
+    for (size_t i = 0, used = more; i < all; i++)
+        if (!has_name_of(ours[i], added))
+            made[used++] = ours[i];
     return made;
 }
 

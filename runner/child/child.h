@@ -1,6 +1,8 @@
-/* Other programs that a command runs: found, started, watched, ended. */
-#ifndef FM_CLI_CHILD_H
-#define FM_CLI_CHILD_H
+/* Other programs that a command runs: found, started, watched, ended.
+ *
+ * The room child holds this alone. Workers are started by parent/. */
+#ifndef FM_CHILD_H
+#define FM_CHILD_H
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -15,7 +17,8 @@ fm_status child_find(char *path, size_t room_bytes, const char *name, const char
 typedef struct fm_child_desc {
     const char *path;
     char *const *argv;        /* ends with NULL */
-    const char *const *added; /* "NAME=VALUE" over our environment; ends with NULL; may be NULL */
+    const char *const *added; /* "NAME=VALUE" over our environment, in place of
+                               * what has the name; ends with NULL; may be NULL */
     const char *log;          /* file that its stdout and stderr are appended to */
     int kept_fd;              /* stays open under the same number; 0: none */
 } fm_child_desc;

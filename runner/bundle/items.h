@@ -1,0 +1,38 @@
+/* The files of a bundle: gathered first, so that their size is known, then copied and hashed. */
+#ifndef FM_BUNDLE_ITEMS_H
+#define FM_BUNDLE_ITEMS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/error.h"
+
+typedef struct bundle_item {
+    char *from, *to; /* `to` is seen from the bundle's top */
+    uint64_t bytes;
+    bool is_program; /* may be executed */
+    char hash[17];   /* XXH3, 64 bits, of what was copied */
+} bundle_item;
+
+/* Starts as {0}. */
+typedef struct bundle_items {
+    bundle_item *items;
+    size_t count;
+} bundle_items;
+
+/* Adds the file from, unless `to` is there already. FM_IO: no file, or it may not be read. */
+fm_status items_add(bundle_items *items, const char *from, const char *to, fm_error *err);
+/* Adds the files below a folder whose names end as one of endings, which ends with NULL, and counts
+ * those that are new. */
+fm_status items_add_tree(bundle_items *items, uint32_t *count, const char *folder, const char *to,
+                         const char *const *endings, fm_error *err);
+uint64_t items_bytes(const bundle_items *items);
+/* Copies all below the folder root, and fills in the hashes. */
+fm_status items_copy(bundle_items *items, const char *root, fm_error *err);
+void items_free(bundle_items *items);
+
+/* Removes a folder with all that is in it. */
+void tree_remove(const char *root);
+
+#endif
