@@ -8,7 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "answer_check.h"
+#include "results/answer_check.h"
 #include "base/text.h"
 #include "process/process.h"
 #include "worker/protocol.h"

@@ -2,7 +2,7 @@
 #ifndef FM_MANIFEST_H
 #define FM_MANIFEST_H
 
-#include "results.h"
+#include "results/results.h"
 #include "run.h"
 
 typedef struct fm_manifest_desc {

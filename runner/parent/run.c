@@ -7,7 +7,7 @@
 
 #include "base/random.h"
 #include "manifest.h"
-#include "noise.h"
+#include "results/noise.h"
 #include "run_internal.h"
 
 static bool should_stop(run_state *run)

@@ -62,10 +62,11 @@ typedef struct fm_run_result {
 /* Runs all launches that an earlier run in the same directory has not finished. Before the first
  * one, each row of that run is compared with the code that is here now, finished ones too.
  * FM_INVALID: nothing was run: no floor method, the directory belongs to another plan, is in use,
- * or cannot be made or written; or is_other_code: the message says of which rows what changed, before
- * anything was launched or, where a file changed under the run, after the last launch that fits its
- * row. FM_IO: files cannot be written, a device of an earlier run cannot be opened, the world
- * stopped the run, or is_damaged. The run can be continued after every error but the damage. */
+ * or cannot be made or written; or is_other_code: the message says of which rows what changed,
+ * before anything was launched or, where a file changed under the run, after the last launch that
+ * fits its row. FM_IO: files cannot be written, a device of an earlier run cannot be opened, the
+ * world stopped the run, or is_damaged. The run can be continued after every error but the damage.
+ */
 fm_status run_cases(fm_run_result *result, const fm_plan *plan, const fm_plugin_list *plugins,
                     const fm_run_desc *desc, fm_error *err);
 

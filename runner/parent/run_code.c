@@ -5,7 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "answer_check.h"
+#include "results/answer_check.h"
 #include "code/code_json.h"
 #include "code/code_now.h"
 #include "run_internal.h"

@@ -8,10 +8,10 @@
 #ifndef FM_RUN_INTERNAL_H
 #define FM_RUN_INTERNAL_H
 
-#include "journal.h"
+#include "results/journal.h"
 #include "launch.h"
 #include "progress.h"
-#include "results.h"
+#include "results/results.h"
 #include "run.h"
 #include "truth_jobs.h"
 #include "worker/protocol.h"

@@ -120,7 +120,7 @@ void answer_add_note(json_t *answer, const char *note);
 
 /* Reading an answer: the parent's side. */
 
-/* What follows asks answers that have passed parent/answer_check.h. */
+/* What follows asks answers that have passed results/answer_check.h. */
 fm_case_status answer_status(const json_t *answer);
 bool answer_is_runs_fault(const json_t *answer);
 bool answer_is_truth_unusable(const json_t *answer);

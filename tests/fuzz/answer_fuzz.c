@@ -4,7 +4,7 @@
 #include <unistd.h>
 
 #include "fuzz.h"
-#include "parent/answer_check.h"
+#include "results/answer_check.h"
 #include "parent_kit.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)

@@ -3,7 +3,7 @@
 #ifndef FM_FUZZ_PARENT_KIT_H
 #define FM_FUZZ_PARENT_KIT_H
 
-#include "parent/results.h"
+#include "results/results.h"
 
 enum { KIT_CASES = 2, KIT_LAUNCHES = 2, KIT_FRAMES = 2 };
 #define KIT_PLAN_HASH "ac2562cac36ebfc7"

@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "fake_plan.h"
+#include "kit/fake_plan.h"
 #include "parent/run.h"
 
 /* $2 is the request, $3 the result. What a method says is told by its name. */

@@ -4,7 +4,7 @@
 
 #include <sys/stat.h>
 
-#include "fake_plan.h"
+#include "kit/fake_plan.h"
 #include "parent/run.h"
 
 /* $2 is the request, $3 the result. Each launch leaves a line in calls; a truth job its file. What

@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "fake_plan.h"
+#include "kit/fake_plan.h"
 #include "parent/mesh_look.h"
 
 /* What happens is told by the mesh's name; each call leaves a line. */

@@ -8,7 +8,7 @@
 #include <cmocka.h>
 
 #include "code/code.h"
-#include "fake_plan.h"
+#include "kit/fake_plan.h"
 #include "parent/run.h"
 
 /* $2 is the request, $3 the result. Answers have the code in the file `code`, if there is one; the

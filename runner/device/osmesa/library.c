@@ -28,8 +28,7 @@ fm_status osmesa_library_open(osmesa_library *library, fm_error *err)
         void *function = dlsym(handle, functions[i].name);
         if (function == NULL) {
             dlclose(handle);
-            return fm_fail(err, FM_IO, "osmesa: this libOSMesa has no %s",
-                           functions[i].name);
+            return fm_fail(err, FM_IO, "osmesa: this libOSMesa has no %s", functions[i].name);
         }
         memcpy((char *)library + functions[i].offset, &function, sizeof function);
     }

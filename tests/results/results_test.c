@@ -6,8 +6,8 @@
 #include <math.h>
 
 #include "base/csv.h"
-#include "fake_plan.h"
-#include "parent/results.h"
+#include "kit/fake_plan.h"
+#include "results/results.h"
 
 static const char *const only_kb[] = { "kb", NULL };
 

@@ -5,8 +5,8 @@
 
 #include <cmocka.h>
 
-#include "fake_plan.h"
-#include "parent/journal.h"
+#include "kit/fake_plan.h"
+#include "results/journal.h"
 
 static const char *const NO_IDS[] = { NULL };
 static const char PLAN[] = "0123456789abcdef";

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "parent/answer_check.h"
+#include "results/answer_check.h"
 
 enum { FRAMES = 5 };
 

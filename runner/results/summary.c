@@ -84,7 +84,8 @@ static void write_message(fm_text *text, const row_state *row)
         add_part(&message, part);
     }
     if (done > 0 && done < wanted && case_status_continues(row->result->status)) {
-        snprintf(part, sizeof part, "%u of %u launches so far: the run is not finished", done, wanted);
+        snprintf(part, sizeof part, "%u of %u launches so far: the run is not finished", done,
+                 wanted);
         add_part(&message, part);
     }
     add_part(&message, row->result->message);

@@ -6,9 +6,9 @@
 #include <cmocka.h>
 #include <math.h>
 
-#include "fake_plan.h"
-#include "parent/noise.h"
-#include "parent/results.h"
+#include "kit/fake_plan.h"
+#include "results/noise.h"
+#include "results/results.h"
 
 /* One launch: a frame of so many ms; of a second of timed frames, what it worked and waited. */
 typedef struct fake_launch {
