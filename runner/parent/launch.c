@@ -8,9 +8,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "results/answer_check.h"
 #include "base/text.h"
 #include "process/process.h"
+#include "results/answer_check.h"
 #include "worker/protocol.h"
 
 enum { LOG_TAIL_BYTES = 400 /* of a dead worker's last words in a message */ };

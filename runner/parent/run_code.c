@@ -5,9 +5,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "results/answer_check.h"
 #include "code/code_json.h"
 #include "code/code_now.h"
+#include "results/answer_check.h"
 #include "run_internal.h"
 
 enum { NO_CODE = 1u << FM_CODE_PART_COUNT }; /* beside the bits of parts: nobody wrote it down */

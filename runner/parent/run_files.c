@@ -33,7 +33,7 @@ fm_status run_make_folders(const run_state *run, fm_error *err)
     return status;
 }
 
-void run_remove_images(const run_state *run, size_t case_index)
+static void remove_images(const run_state *run, size_t case_index)
 {
     static const char *const endings[] = { ".rgba32f", ".truth.rgba32f" };
     char path[FM_PATH_MAX_BYTES];
@@ -62,4 +62,12 @@ void run_remove_folders(const run_state *run)
         rmdir(path);
     if (run_path(path, run, "work", "", "", NULL) == FM_OK)
         rmdir(path);
+}
+
+fm_status run_forget(run_state *run, size_t case_index, fm_error *err)
+{
+    remove_images(run, case_index);
+    run->forgotten++;
+    return journal_write(run->journal, FM_JOURNAL_FORGET, run->plan->cases[case_index].id, 0, NULL,
+                         err);
 }

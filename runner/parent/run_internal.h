@@ -1,5 +1,6 @@
 /* What the files behind run.h share; nobody else includes it. From below:
  *   run_files.c   where files of a run lie
+ *   run_request.c what workers are asked for a case
  *   run_attempt.c a worker, asked again where it died
  *   run_code.c    whether rows and truths were made by the code that is here now
  *   run_step.c    one launch, or the capture of one truth, from request to row
@@ -8,9 +9,9 @@
 #ifndef FM_RUN_INTERNAL_H
 #define FM_RUN_INTERNAL_H
 
-#include "results/journal.h"
 #include "launch.h"
 #include "progress.h"
+#include "results/journal.h"
 #include "results/results.h"
 #include "run.h"
 #include "truth_jobs.h"
@@ -42,29 +43,24 @@ fm_status run_path(char path[FM_PATH_MAX_BYTES], const run_state *run, const cha
                    const char *name, const char *ending, fm_error *err);
 /* FM_INVALID: a folder cannot be made, or holds results that no journal belongs to. */
 fm_status run_make_folders(const run_state *run, fm_error *err);
-/* Those of a case that is measured anew. */
-void run_remove_images(const run_state *run, size_t case_index);
+/* Writes that what the journal has of a case counts no more, and removes its images. */
+fm_status run_forget(run_state *run, size_t case_index, fm_error *err);
 /* What only running launches need. Folders that hold more stay. */
 void run_remove_truths(const run_state *run);
 /* Those two folders, where they are empty. */
 void run_remove_folders(const run_state *run);
 
-/* run_code.c */
-/* Hears the journal first: checks each line, and notes what its rows were measured by, and how
- * much of them is to be forgotten. */
-fm_status run_read_codes(run_state *run, fm_error *err);
-/* Compares that with what is here now: refuses with is_other_code, or with is_fresh writes into the
- * journal that they are to be forgotten. */
-fm_status run_check_codes(run_state *run, fm_error *err);
-/* Puts into the answer what it may have read, if it says nothing, and compares it with what the row
- * was measured by. FM_INVALID: is_other_code. */
-fm_status run_fit_code(run_state *run, size_t case_index, json_t *answer, fm_error *err);
-/* Whether the truth at path is there, and was captured by what is here now. */
-fm_status run_find_truth(bool *is_there, run_state *run, size_t job, const char *path,
-                         fm_error *err);
-/* Keeps beside a truth what captured it. */
-fm_status run_keep_truth_code(const run_state *run, const char *path, const json_t *answer,
-                              fm_error *err);
+/* run_request.c */
+/* The case of a line in the journal. FM_INVALID: the plan has no such case, or launch of it. */
+fm_status run_find_case(size_t *case_index, const run_state *run, const char *id, uint32_t launch,
+                        fm_error *err);
+/* The path of the plugin that measures a case; "": it was refused. */
+const char *run_plugin_path(const run_state *run, const fm_case *planned);
+/* What a truth job and the launches that are compared with it are asked alike. */
+fm_request run_request_for(const run_state *run, const fm_case *planned, size_t job,
+                           const char *truth);
+/* How many frames a launch may speak of: those that are timed, or those of its sequence. */
+uint32_t run_frames(const run_state *run, const fm_settings *settings);
 
 /* run_attempt.c */
 #define RUN_NO_CASE SIZE_MAX
@@ -83,16 +79,26 @@ typedef struct run_attempt {
 fm_status run_attempt_launch(fm_launch_outcome *outcome, run_state *run, const run_attempt *attempt,
                              char **death, fm_error *err);
 
+/* run_code.c */
+/* Hears the journal first: checks each line, and notes what its rows were measured by, and how
+ * much of them is to be forgotten. */
+fm_status run_read_codes(run_state *run, fm_error *err);
+/* Compares that with what is here now: refuses with is_other_code, or with is_fresh writes into the
+ * journal that they are to be forgotten. */
+fm_status run_check_codes(run_state *run, fm_error *err);
+/* Puts into the answer what it may have read, if it says nothing, and compares it with what the row
+ * was measured by. FM_INVALID: is_other_code. */
+fm_status run_fit_code(run_state *run, size_t case_index, json_t *answer, fm_error *err);
+/* Whether the truth at path is there, and was captured by what is here now. */
+fm_status run_find_truth(bool *is_there, run_state *run, size_t job, const char *path,
+                         fm_error *err);
+/* Keeps beside a truth what captured it. */
+fm_status run_keep_truth_code(const run_state *run, const char *path, const json_t *answer,
+                              fm_error *err);
+
 /* run_step.c */
-/* The path of the plugin that measures a case; "": it was refused. */
-const char *run_plugin_path(const run_state *run, const fm_case *planned);
-/* What a truth job and the launches that are compared with it are asked alike. */
-fm_request run_request_for(const run_state *run, const fm_case *planned, size_t job,
-                           const char *truth);
 /* The case is to be launched, and not finished. */
 bool run_is_pending(const run_state *run, size_t case_index);
-/* How many frames a launch may speak of: those that are timed, or those of its sequence. */
-uint32_t run_frames(const run_state *run, const fm_settings *settings);
 /* Writes the end of a launch into journal, tables and, if it was the case's last, the summary. */
 fm_status run_end_launch(run_state *run, size_t case_index, uint32_t launch, json_t *answer,
                          fm_error *err);
@@ -103,11 +109,6 @@ fm_status run_capture_truth(run_state *run, size_t job, fm_error *err);
 fm_status run_measure(run_state *run, size_t case_index, uint32_t launch, fm_error *err);
 
 /* run_resume.c */
-/* The case of a line in the journal. FM_INVALID: the plan has no such case, or launch of it. */
-fm_status run_find_case(size_t *case_index, const run_state *run, const char *id, uint32_t launch,
-                        fm_error *err);
-/* Writes that what the journal has of a case counts no more, and removes its images. */
-fm_status run_forget(run_state *run, size_t case_index, fm_error *err);
 /* Opens the journal, and takes from it what was measured and is still to count. */
 fm_status run_resume(run_state *run, fm_error *err);
 

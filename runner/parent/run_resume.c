@@ -22,16 +22,6 @@ static void plan_hash(char hash[17], const fm_plan *plan, const fm_run_desc *des
     XXH3_freeState(state);
 }
 
-fm_status run_find_case(size_t *case_index, const run_state *run, const char *id, uint32_t launch,
-                        fm_error *err)
-{
-    const size_t i = text_index_find(&run->ids, id);
-    *case_index = i;
-    return i == FM_TEXT_INDEX_NONE || launch >= plan_case_launches(run->plan, i)
-               ? fm_fail(err, FM_INVALID, "case %.32s, launch %u is not of this plan", id, launch)
-               : FM_OK;
-}
-
 static fm_status replay_event(run_state *run, fm_journal_event event, size_t i, uint32_t launch,
                               const json_t *result, fm_error *err)
 {
@@ -77,14 +67,6 @@ static fm_status read_results(run_state *run, fm_error *err)
     if (status == FM_OK)
         status = journal_replay(run->journal, &reader, &run->is_damaged, err);
     return status;
-}
-
-fm_status run_forget(run_state *run, size_t case_index, fm_error *err)
-{
-    run_remove_images(run, case_index);
-    run->forgotten++;
-    return journal_write(run->journal, FM_JOURNAL_FORGET, run->plan->cases[case_index].id, 0, NULL,
-                         err);
 }
 
 /* Rows of statuses that are to be measured anew. A case that is not to be launched has nothing to

@@ -28,12 +28,6 @@ fm_status run_end_launch(run_state *run, size_t case_index, uint32_t launch, jso
     return status;
 }
 
-uint32_t run_frames(const run_state *run, const fm_settings *settings)
-{
-    return generator_makes_frames(settings->generator) ? settings->sequence_frames
-                                                       : run->plan->frames;
-}
-
 /* All cases of a truth that cannot be had end as it did. */
 static fm_status fail_truth(run_state *run, size_t job, const json_t *result, fm_error *err)
 {
@@ -74,29 +68,6 @@ static bool is_of_given_limit(const run_state *run, json_t *answer)
         return false;
     answer_add_note(answer, "the run was given a limit on memory (ulimit -v)");
     return true;
-}
-
-const char *run_plugin_path(const run_state *run, const fm_case *planned)
-{
-    const fm_plugin_entry *entry = plugin_list_find(run->plugins, planned->method);
-    return entry != NULL && entry->plugin != NULL ? entry->plugin->path : "";
-}
-
-fm_request run_request_for(const run_state *run, const fm_case *planned, size_t job,
-                           const char *truth)
-{
-    return (fm_request){ .device = planned->device,
-                         .feed = planned->feed,
-                         .settings = &planned->settings,
-                         .choices = planned->choices,
-                         .choice_count = planned->choice_count,
-                         .plugin = run_plugin_path(run, planned),
-                         .floor = run->truths.jobs[job].floor,
-                         .common = run->plugins->common_folder,
-                         .truth = truth,
-                         .image = "",
-                         .validation = run->desc->validation,
-                         .no_timers = run->desc->no_timers };
 }
 
 fm_status run_capture_truth(run_state *run, size_t job, fm_error *err)

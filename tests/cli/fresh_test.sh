@@ -15,7 +15,7 @@ cp "$program" "$work/bin/fragmark"
 for method in ab-array kplus-array null common; do
     cp -rL "$(dirname "$program")/methods/$method" "$work/bin/methods/"
 done
-export FRAGMARK_SCENE_PATH
+export FRAGMARK_SCENE_PATH FRAGMARK_PLUGIN_PATH="$work/bin/methods"
 FRAGMARK_SCENE_PATH=$(cd "$(dirname "$program")/scenes" && pwd)
 arguments=(--no-report --no-images --method ab-array,kplus-array --device dummy -a n=4 -a width_px=16
     -a height_px=12 -a frames=1 -a warmup=0)

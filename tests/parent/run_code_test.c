@@ -24,7 +24,7 @@ static const char worker_script[] =
     "[ $job != truth ] || touch \"$(sed -n 's,.*\"truth\": \"\\(.*\\)\".*,\\1,p' \"$2\")\"\n"
     "[ $job != device ] || [ ! -e \"$here/no-device\" ] || {\n"
     "    echo '{\"status\":\"not_supported\",\"message\":\"no driver\"}' >\"$3\"; exit 0; }\n"
-    "[ ! -e \"$here/stop\" ] || [ \"$launch\" = 0 ] || { kill -TERM $PPID; sleep 9; }\n"
+    "[ ! -e \"$here/stop\" ] || [ \"$launch\" = 0 ] || { kill -TERM $FAKE_PARENT; sleep 9; }\n"
     "{ echo '{\"status\":\"ok\",\"message\":\"\",\"image_hashes\":[\"00000000000000aa\"],'\n"
     "  [ ! -e \"$here/$code\" ] || { echo '\"code\":'; cat \"$here/$code\"; echo ,; }\n"
     "  echo '\"device_name\":\"fake\",\"metrics\":{\"rmse\":0.0,\"n\":4,\"tied_pixels\":0},'\n"
@@ -35,7 +35,10 @@ static const char *const one_case[] = { "a", NULL };
 
 static void open_with_worker(fake_plan *fake, uint32_t launches)
 {
+    char self[16];
     fake_open(fake, one_case, launches);
+    snprintf(self, sizeof self, "%d", getpid());
+    setenv("FAKE_PARENT", self, 1); /* between it and the worker is a guard */
     fake_write(fake, "worker.sh", worker_script, "w");
     assert_int_equal(chmod(fake->worker, 0755), 0);
 }

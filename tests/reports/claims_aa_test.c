@@ -38,6 +38,10 @@ static void add_cell(fm_text *csv, const aa_row *row, const fm_column *column)
         text_add(csv, "ok");
     else if (strcmp(name, "method") == 0)
         text_add(csv, "%s", row->method);
+    else if (strcmp(name, "schema") == 0)
+        text_add(csv, "1");
+    else if (strcmp(name, "case_id") == 0)
+        text_add(csv, "%s%d", row->method, row->k);
     else if (strcmp(name, "k") == 0)
         text_add(csv, "%d", row->k);
     else if (column->kind >= FM_COLUMN_METRIC)

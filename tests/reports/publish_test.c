@@ -86,7 +86,7 @@ static void a_figure_of_the_run_that_is_gone_replaces_nothing(void **state)
     char directory[64];
     make_reported(directory);
     remove_file(directory, "f-1.yml");
-    assert_stays(directory, 8, "", "figure \"f-1\", for which");
+    assert_stays(directory, 8, "", "no figure 'f-1'");
     kit_remove_directory(directory);
 }
 
@@ -95,7 +95,7 @@ static void a_reference_that_is_not_there_replaces_nothing(void **state)
     (void)state;
     char directory[64];
     make_reported(directory);
-    assert_stays(directory, 2, "--reference nobody", "no reference \"nobody\"");
+    assert_stays(directory, 2, "--reference nobody", "no reference 'nobody'");
     kit_remove_directory(directory);
 }
 
