@@ -55,6 +55,25 @@ static void default_that_is_said_is_the_same_case(void **state)
     assert_string_not_equal(other, unsaid);
 }
 
+static void case_ids_tell_cases_apart_and_nothing_else(void **state)
+{
+    (void)state;
+    static const char *const others[] = { "k=4", "seed=2", "buffers=bound", "pool=per-frame",
+                                          "timers=frame" };
+    static const char *const same[] = { "launches=9", "frames=3", "warmup=1" };
+    char first[17], id[17];
+    id_of(first, "pixel", &usual, NULL);
+    assert_int_equal(strlen(first), 16);
+    for (size_t i = 0; i < sizeof same / sizeof same[0]; i++) {
+        id_of(id, "pixel", &usual, same[i]);
+        assert_string_equal(id, first);
+    }
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
+        id_of(id, "pixel", &usual, others[i]);
+        assert_string_not_equal(id, first);
+    }
+}
+
 /* Who changes a default must not find yesterday's rows under the ids of today's. */
 static void changed_default_is_another_case(void **state)
 {
@@ -72,6 +91,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(default_that_is_said_is_the_same_case),
         cmocka_unit_test(changed_default_is_another_case),
+        cmocka_unit_test(case_ids_tell_cases_apart_and_nothing_else),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

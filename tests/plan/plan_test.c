@@ -354,30 +354,6 @@ static void simulated_passes_have_no_timers(void **state)
     plan_free(&with.plan);
 }
 
-static void case_ids_tell_cases_apart_and_nothing_else(void **state)
-{
-    (void)state;
-    char first[17];
-    fixture with;
-    fixture_create(&with);
-    expect(&with, &(fm_plan_request){ .methods = LIST("kb") }, 1);
-    strcpy(first, with.plan.cases[0].id);
-    assert_int_equal(strlen(first), 16);
-    expect(&with, &(fm_plan_request){ .methods = LIST("kb"), .axes = LIST("layout=pixel") }, 1);
-    assert_string_equal(with.plan.cases[0].id, first);
-    expect(&with,
-           &(fm_plan_request){ .methods = LIST("kb"), .axes = LIST("launches=9", "frames=3") }, 1);
-    assert_string_equal(with.plan.cases[0].id, first);
-    assert_int_equal(with.plan.launches, 9);
-    const char *const others[] = { "layout=layer",   "k=4",         "seed=2", "buffers=bound",
-                                   "pool=per-frame", "timers=frame" };
-    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
-        expect(&with, &(fm_plan_request){ .methods = LIST("kb"), .axes = LIST(others[i]) }, 1);
-        assert_string_not_equal(with.plan.cases[0].id, first);
-    }
-    plan_free(&with.plan);
-}
-
 /* A spec in a folder of its own, beside a scene "s.yml". */
 typedef struct spec_folder {
     char folder[64], spec[96], scene[96];
@@ -500,7 +476,6 @@ int main(void)
         cmocka_unit_test(plan_skips_what_cannot_be_culled),
         cmocka_unit_test(keys_of_a_map_that_is_not_there_are_forgotten),
         cmocka_unit_test(simulated_passes_have_no_timers),
-        cmocka_unit_test(case_ids_tell_cases_apart_and_nothing_else),
         cmocka_unit_test(plan_reads_specs_and_lets_the_command_line_win),
         cmocka_unit_test(plan_refuses_specs_with_the_line),
         cmocka_unit_test(plan_keeps_keys_from_scenes_that_do_not_read_them),
