@@ -53,7 +53,7 @@ for variable in FRAGMARK_SCENE_PATH FRAGMARK_PLUGIN_PATH; do
 done
 check a_folder_of_scenes_must_be_there 2 "FRAGMARK_SCENE_PATH: /nowhere: No such file" \
     env FRAGMARK_SCENE_PATH=/nowhere "$program" plan
-check a_folder_of_figures_must_be_one 2 "FRAGMARK_FIGURE_PATH: /dev/zero: is a device, not a folder" \
+check a_folder_of_figures_must_be_one 2 "FRAGMARK_FIGURE_PATH: /dev/zero: is not a folder" \
     env FRAGMARK_FIGURE_PATH=/dev/zero "$program" list figures
 mkfifo "$here/pipe"
 check a_spec_must_be_a_file 2 "pipe: is a pipe, not a file" timeout 60 "$program" plan "$here/pipe"
@@ -144,24 +144,24 @@ done
 check report_needs_a_folder 2 "which DIR" "$program" report
 
 # Folders and files that are not what they are taken for.
-mkdir -p "$here/wrong/empty" "$here/wrong/runs/one"
-: >"$here/wrong/file.yml"
-echo words >"$here/wrong/text"
-echo 'schema' >"$here/wrong/runs/one/summary.csv"
+mkdir -p "$here/odd/empty" "$here/odd/runs/one"
+: >"$here/odd/file.yml"
+echo words >"$here/odd/text"
+echo 'schema' >"$here/odd/runs/one/summary.csv"
 if [ -x "$(dirname "$program")/fragmark-report" ]; then
-    check report_of_no_folder 2 "wrong/none: No such file" "$program" report "$here/wrong/none"
-    check report_of_a_file 2 "wrong/text: is not a folder" "$program" report "$here/wrong/text"
-    check report_of_an_empty_folder 2 "wrong/empty: is empty" "$program" report "$here/wrong/empty"
-    check report_of_a_folder_of_runs 2 "did you mean $here/wrong/runs/one?" "$program" report "$here/wrong/runs"
-    check report_of_a_folder_without_results 2 "holds no results: no summary.csv" "$program" report "$here/wrong"
-    check reference_that_holds_nothing 2 "wrong/empty: is empty" table --reference "$here/wrong/empty"
+    check report_of_no_folder 2 "odd/none: No such file" "$program" report "$here/odd/none"
+    check report_of_a_file 2 "odd/text: is not a folder" "$program" report "$here/odd/text"
+    check report_of_an_empty_folder 2 "odd/empty: is empty" "$program" report "$here/odd/empty"
+    check report_of_a_folder_of_runs 2 "did you mean $here/odd/runs/one?" "$program" report "$here/odd/runs"
+    check report_of_a_folder_without_results 2 "holds no results: no summary.csv" "$program" report "$here/odd"
+    check reference_that_holds_nothing 2 "odd/empty: is empty" table --reference "$here/odd/empty"
 fi
-check empty_scene_is_refused 2 "file.yml: is empty" plain --scene "$here/wrong/file.yml"
-check empty_spec_is_refused 2 "file.yml: is empty" plain "$here/wrong/file.yml"
-check plugin_folder_that_is_a_file 2 "wrong/text: is not a folder" plain --plugin-dir "$here/wrong/text"
-check output_that_is_a_file 2 "wrong/text: is not a folder" "$program" reproduce kplus-table1 --no-report \
-    -o "$here/wrong/text"
-check output_below_what_is_not_there 0 "0 differ" "$program" reproduce kplus-table1 --no-report -o "$here/wrong/a/b"
+check empty_scene_is_refused 2 "file.yml: is empty" plain --scene "$here/odd/file.yml"
+check empty_spec_is_refused 2 "file.yml: is empty" plain "$here/odd/file.yml"
+check plugin_folder_that_is_a_file 2 "odd/text: is not a folder" plain --plugin-dir "$here/odd/text"
+check output_that_is_a_file 2 "odd/text: is there, and is no folder" "$program" reproduce kplus-table1 --no-report \
+    -o "$here/odd/text"
+check output_below_what_is_not_there 0 "0 differ" "$program" reproduce kplus-table1 --no-report -o "$here/odd/a/b"
 
 # Who may not read or write is told so; root may all.
 mkdir -m 000 "$here/barred"
