@@ -33,7 +33,7 @@ finish driver
 expect 5 "File too large" "files of 2 kB" bash -c 'ulimit -f 2; exec "$@"' - "$program" "${arguments[@]}" -o "$work/size"
 finish size
 for memory in 300000 600000; do
-    expect 5 "ulimit -v" "$memory kB of memory" bash -c "ulimit -v $memory; exec \"\$@\"" - \
+    expect 5 'ulimit -v\|out of device memory' "$memory kB of memory" bash -c "ulimit -v $memory; exec \"\$@\"" - \
         "$program" "${arguments[@]}" -o "$work/memory"
 done
 finish memory
