@@ -69,8 +69,18 @@ const fm_method_desc *kit_method(const scene_kit *kit, size_t index)
     return entry->plugin->method;
 }
 
+static bool takes_locks(const fm_method_desc *method)
+{
+    for (size_t i = 0; i < FM_MAX_PASSES && method->passes[i].name != NULL; i++)
+        if (method->passes[i].exclusive)
+            return true;
+    return false;
+}
+
 uint32_t kit_feeds(const fm_method_desc *method)
 {
+    if (getenv("FRAGMARK_TEST_LOCKS") != NULL && !takes_locks(method))
+        return 0;
     return (method->feeds != 0 ? method->feeds : FM_FEEDS_FRAGMENTS) &
            (FM_FEEDS_FRAGMENTS | FM_FEED_TRIANGLES);
 }
