@@ -64,10 +64,11 @@ static fm_status take_figures_of_run(arguments *given, const fm_provenance *mani
     char path[FM_PATH_MAX_BYTES];
     for (size_t i = 0; i < manifest->figure_count; i++) {
         if (find_figure(path, manifest->figures[i], err) != FM_OK)
-            return fm_error_prefix(err,
-                                   "%s was measured for a figure that is not here (--figure "
-                                   "names those to draw instead)",
-                                   given->directory);
+            return fm_error_prefix(
+                err,
+                "%s was measured for a figure that is not here (`fragmark-report --figure` "
+                "names those to draw instead)",
+                given->directory);
         if (!text_list_add(&given->figures, manifest->figures[i]))
             return fm_fail(err, FM_NO_MEMORY, "no memory for %zu figures", manifest->figure_count);
     }

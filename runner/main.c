@@ -1,4 +1,5 @@
 /* The program: subcommands, the streams they talk to, exit codes. */
+#include <errno.h>
 #include <signal.h>
 #include <string.h>
 
@@ -65,7 +66,10 @@ static int run_command(int index, int argc, char **argv)
     argp_err_exit_status = CLI_USAGE;
     const int code = commands[index].run(&cli, argc, argv);
     /* Data that did not arrive, on a full disk say, must not look like success. */
-    return fflush(stdout) == 0 && !ferror(stdout) ? code : CLI_NOTHING;
+    if (fflush(stdout) == 0 && !ferror(stdout))
+        return code;
+    fprintf(stderr, "fragmark: what it printed could not be written: %s\n", strerror(errno));
+    return CLI_NOTHING;
 }
 
 int main(int argc, char **argv)

@@ -33,16 +33,22 @@ static fm_status add_entry(fm_plugin_list *list, const char *id, const char *pat
     return FM_OK;
 }
 
+/* Whether folder/id/id.so is there, whatever it is. */
+static bool find_object(path_text path, const char *folder, const char *id)
+{
+    path_text file;
+    if (id[0] == '.' || strlen(id) >= sizeof((fm_plugin_entry *)0)->id)
+        return false;
+    snprintf(file, sizeof file, "%s/%s.so", id, id);
+    return join(path, folder, file) && faccessat(AT_FDCWD, path, F_OK, AT_SYMLINK_NOFOLLOW) == 0;
+}
+
 /* Takes folder/id/id.so, unless there is none, or an earlier folder had it. A link that leads
  * nowhere is there. */
 static fm_status scan_entry(fm_plugin_list *list, const char *folder, const char *id, fm_error *err)
 {
-    path_text path, file;
-    const size_t room = sizeof list->entries->id;
-    if (id[0] == '.' || strlen(id) >= room || plugin_list_find(list, id) != NULL)
-        return FM_OK;
-    snprintf(file, sizeof file, "%s/%s.so", id, id);
-    if (!join(path, folder, file) || faccessat(AT_FDCWD, path, F_OK, AT_SYMLINK_NOFOLLOW) != 0)
+    path_text path;
+    if (plugin_list_find(list, id) != NULL || !find_object(path, folder, id))
         return FM_OK;
     return add_entry(list, id, path, err);
 }
@@ -83,13 +89,40 @@ static int compare_entries(const void *left, const void *right)
     return strcmp(((const fm_plugin_entry *)left)->id, ((const fm_plugin_entry *)right)->id);
 }
 
+static int is_method_folder(const struct dirent *name)
+{
+    return name->d_name[0] != '.';
+}
+
+/* A folder that was named and gives nothing is a mistake: it would measure what is built in. */
+static fm_status expect_plugins(const char *folder, fm_error *err)
+{
+    struct dirent **names = NULL;
+    bool is_found = false;
+    path_text path;
+    const int count = scandir(folder, &names, is_method_folder, NULL);
+    for (int i = 0; i < count; i++) {
+        is_found = is_found || find_object(path, folder, names[i]->d_name) ||
+                   strcmp(names[i]->d_name, "common") == 0;
+        free(names[i]);
+    }
+    free(names);
+    return is_found || count < 0
+               ? FM_OK
+               : fm_fail(err, FM_INVALID, "plugin folder %s: no plugin lies there as ID/ID.so",
+                         folder);
+}
+
 static fm_status visit_folders(fm_plugin_list *list, const char *const *extra, folder_visit *visit,
                                fm_error *err)
 {
     fm_text_list folders = { 0 };
     fm_status status = FM_OK;
-    for (; extra != NULL && *extra != NULL && status == FM_OK; extra++)
+    for (; extra != NULL && *extra != NULL && status == FM_OK; extra++) {
         status = visit(list, *extra, err);
+        if (status == FM_OK)
+            status = expect_plugins(*extra, err);
+    }
     if (status == FM_OK)
         status = data_folders(&folders, DATA_METHODS, err);
     for (size_t i = 0; i < folders.count && status == FM_OK; i++)

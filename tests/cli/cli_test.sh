@@ -158,6 +158,7 @@ if [ -x "$(dirname "$program")/fragmark-report" ]; then
 fi
 check empty_scene_is_refused 2 "file.yml: is empty" plain --scene "$here/odd/file.yml"
 check empty_spec_is_refused 2 "file.yml: is empty" plain "$here/odd/file.yml"
+check plugin_folder_without_plugins 2 "no plugin lies there as ID/ID.so" plain --plugin-dir "$here/odd/empty"
 check plugin_folder_that_is_a_file 2 "odd/text: is not a folder" plain --plugin-dir "$here/odd/text"
 check output_that_is_a_file 2 "odd/text: is there, and is no folder" "$program" reproduce kplus-table1 --no-report \
     -o "$here/odd/text"

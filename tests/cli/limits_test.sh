@@ -26,7 +26,7 @@ finish() {
     expect 0 "1 ok" "$1, continued" "$program" "${arguments[@]}" -o "$work/$1"
 }
 
-expect 5 "no driver is installed" "no driver" env VK_ICD_FILENAMES=/nowhere.json VK_DRIVER_FILES=/nowhere.json \
+expect 5 "no driver can be loaded from what VK_DRIVER_FILES names" "no driver" env VK_ICD_FILENAMES=/nowhere.json VK_DRIVER_FILES=/nowhere.json \
     "$program" "${arguments[@]}" -o "$work/driver"
 finish driver
 # The shell writes in blocks of 1024 bytes.

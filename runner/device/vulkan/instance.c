@@ -1,4 +1,5 @@
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "context.h"
@@ -55,6 +56,13 @@ static fm_status create_messenger(VkInstance instance, vulkan_validation *valida
 
 static fm_status fail_instance(fm_error *err, VkResult result)
 {
+    const char *variable = getenv("VK_DRIVER_FILES") != NULL    ? "VK_DRIVER_FILES"
+                           : getenv("VK_ICD_FILENAMES") != NULL ? "VK_ICD_FILENAMES"
+                                                                : NULL;
+    if (result == VK_ERROR_INCOMPATIBLE_DRIVER && variable != NULL)
+        return fm_fail(err, FM_UNSUPPORTED,
+                       "vulkan: no driver can be loaded from what %s names: %.200s", variable,
+                       getenv(variable));
     if (result == VK_ERROR_INCOMPATIBLE_DRIVER)
         return fm_fail(err, FM_UNSUPPORTED,
                        "vulkan: no driver is installed; without a GPU: apt-get install "
