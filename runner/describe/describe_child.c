@@ -110,8 +110,8 @@ static void tell_end(answer *to, const char *path, int wait_status, bool is_late
     answer_set_text(to, ANSWER_ENDED, text);
 }
 
-/* Writes a whole answer; a full disk leaves none, which the reader sees. */
-static void put_answer(int file, size_t slot, const answer *from)
+/* Writes a whole answer; a full disk leaves none, and false. */
+static bool put_answer(int file, size_t slot, const answer *from)
 {
     const size_t room = sizeof from->bytes;
     const size_t count = from->head.count < room ? from->head.count : room;
@@ -121,9 +121,10 @@ static void put_answer(int file, size_t slot, const answer *from)
         const ssize_t written = pwrite(file, bytes + done, sizeof from->head + count - done,
                                        (off_t)(slot * ANSWER_SLOT_BYTES + done));
         if (written <= 0 && errno != EINTR)
-            return;
+            return false;
         done += written > 0 ? (size_t)written : 0;
     }
+    return true;
 }
 
 /* Waits until a child has ended, at most WALL_S; it is not reaped. */
@@ -141,18 +142,26 @@ static bool ends_in_time(pid_t pid)
     return false;
 }
 
+/* Nothing is known of the plugin, and it is not to blame: the words go to who asked. */
+static _Noreturn void give_up(const char *path)
+{
+    fprintf(stderr, "%s: %s\n", plugin_file_name(path), strerror(errno));
+    fflush(stderr);
+    _exit(EXIT_FAILURE);
+}
+
 static _Noreturn void keep(int file, size_t slot, const char *path)
 {
     int wait_status = 0;
     answer *shared =
         mmap(NULL, sizeof *shared, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (shared == MAP_FAILED)
-        _exit(1);
+        give_up(path);
     const pid_t loader = fork();
     if (loader == 0)
         load(shared, path);
     if (loader < 0)
-        _exit(1);
+        give_up(path);
     const bool is_late = !ends_in_time(loader);
     kill(loader, SIGKILL);
     kill(-loader, SIGKILL);
@@ -160,23 +169,25 @@ static _Noreturn void keep(int file, size_t slot, const char *path)
         continue;
     if (shared->head.kind < ANSWER_ENDED || shared->head.kind > ANSWER_DESCRIBED)
         tell_end(shared, path, wait_status, is_late);
-    put_answer(file, slot, shared);
+    if (!put_answer(file, slot, shared))
+        give_up(path);
     _exit(0);
 }
 
-/* A plugin that killed its keeper. */
-static void tell_lost(int file, size_t slot, const char *path, int wait_status)
+/* A plugin that killed its keeper; false: nobody is told. */
+static bool tell_lost(int file, size_t slot, const char *path, int signal_number)
 {
     answer *lost = malloc(sizeof *lost);
     char text[FM_PATH_MAX_BYTES + 128];
     if (lost == NULL)
-        return;
-    snprintf(text, sizeof text, "%s: cannot be used: it ended the process that watched it (%s %d)",
-             plugin_file_name(path), WIFSIGNALED(wait_status) ? "signal" : "status",
-             WIFSIGNALED(wait_status) ? WTERMSIG(wait_status) : WEXITSTATUS(wait_status));
+        return false;
+    snprintf(text, sizeof text,
+             "%s: cannot be used: it ended the process that watched it (signal %d)",
+             plugin_file_name(path), signal_number);
     answer_set_text(lost, ANSWER_ENDED, text);
-    put_answer(file, slot, lost);
+    const bool is_told = put_answer(file, slot, lost);
     free(lost);
+    return is_told;
 }
 
 /* The keepers that are at work. */
@@ -208,7 +219,8 @@ static bool start_keeper(keepers *of, size_t slot)
     return true;
 }
 
-static void await_keeper(keepers *of)
+/* false: a plugin has no answer, and not for what it did. */
+static bool await_keeper(keepers *of)
 {
     int wait_status;
     pid_t pid;
@@ -217,27 +229,33 @@ static void await_keeper(keepers *of)
     while (pid < 0 && errno == EINTR);
     const size_t place = find_keeper(of, pid);
     if (place == AT_A_TIME)
-        return;
+        return true;
     of->pids[place] = 0;
-    if (wait_status != 0)
-        tell_lost(of->file, of->slots[place], of->plugins[of->slots[place]], wait_status);
+    if (WIFSIGNALED(wait_status))
+        return tell_lost(of->file, of->slots[place], of->plugins[of->slots[place]],
+                         WTERMSIG(wait_status));
+    return wait_status == 0;
 }
 
 int describe_main(const char *out, char *const *plugins)
 {
     keepers of = { .file = open(out, O_WRONLY | O_CLOEXEC), .plugins = plugins };
     size_t next = 0, running = 0;
-    bool can_start = true;
-    if (of.file < 0)
-        return 1;
+    bool can_start = true, is_whole = true;
+    if (of.file < 0) {
+        perror(out);
+        return EXIT_FAILURE;
+    }
     while (running > 0 || (can_start && plugins[next] != NULL)) {
         if (can_start && running < AT_A_TIME && plugins[next] != NULL) {
             can_start = start_keeper(&of, next++);
+            if (!can_start)
+                perror("no process can be started");
             running += can_start;
             continue;
         }
-        await_keeper(&of);
+        is_whole = await_keeper(&of) && is_whole;
         running--;
     }
-    return can_start ? 0 : 1;
+    return can_start && is_whole ? EXIT_SUCCESS : EXIT_FAILURE;
 }
