@@ -14,7 +14,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
@@ -22,26 +21,22 @@
 #include "answer.h"
 #include "base/clock.h"
 #include "describe.h"
+#include "process/limits.h"
 
 enum {
     AT_A_TIME = 8,
     WALL_S = 5,      /* of a loader */
     PROCESSOR_S = 2, /* the same */
-    OPEN_FILES = 64,
-    FILE_BYTES = 1 << 20,
 };
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-/* Address space; sanitizers map terabytes. */
-static const rlim_t memory_bytes = (rlim_t)2 << 30;
-#else
-static const rlim_t memory_bytes = RLIM_INFINITY;
-#endif
 
-static void limit(int resource, rlim_t soft, rlim_t hard)
-{
-    const struct rlimit both = { soft, hard };
-    setrlimit(resource, &both);
-}
+static const fm_process_limits loader_limits = {
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) /* these map terabytes */
+    .memory_bytes = (uint64_t)2 << 30,
+#endif
+    .file_bytes = 1 << 20,
+    .cpu_s = PROCESSOR_S,
+    .open_files = 64,
+};
 
 /* Holds for the plugin's code, too. */
 static void bind_hands(void)
@@ -51,11 +46,7 @@ static void bind_hands(void)
     for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++)
         dup2(nowhere, fd);
     close_range(STDERR_FILENO + 1, ~0u, 0);
-    limit(RLIMIT_CORE, 0, 0);
-    limit(RLIMIT_CPU, PROCESSOR_S, PROCESSOR_S + 1);
-    limit(RLIMIT_AS, memory_bytes, memory_bytes);
-    limit(RLIMIT_FSIZE, FILE_BYTES, FILE_BYTES);
-    limit(RLIMIT_NOFILE, OPEN_FILES, OPEN_FILES);
+    limits_set(&loader_limits);
 }
 
 static void describe_loaded(answer *to, const fm_plugin *plugin)
