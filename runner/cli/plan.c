@@ -198,14 +198,15 @@ static int write_plan(const fm_arguments *arguments, const fm_plan *plan)
 {
     const fm_cli *cli = arguments->cli;
     fm_error err = { 0 };
-    fm_text_index unread = { 0 };
+    fm_mesh_look meshes = { 0 };
     int code = arguments->json ? write_json(cli, plan) : write_table(cli, plan);
     fflush(cli->out); /* the cases before what is said of their meshes */
-    if (!arguments->quiet && mesh_look(&unread, cli->talk, plan, NULL, &err) != FM_OK)
+    if (!arguments->quiet && mesh_look(&meshes, cli->talk, plan, NULL, &err) != FM_OK)
         code = cli_fail(cli, &err);
     if (code == CLI_DONE)
-        code = plan_code(plan, &unread);
-    text_index_free(&unread);
+        code = meshes.stop_signal != 0 ? CLI_SIGNAL + meshes.stop_signal
+                                       : plan_code(plan, &meshes.unread);
+    text_index_free(&meshes.unread);
     return code;
 }
 

@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <xxhash.h>
@@ -28,10 +27,32 @@ void code_free(fm_code *code)
     *code = (fm_code){ 0 };
 }
 
+static uint64_t not_zero(uint64_t hash)
+{
+    return hash != 0 ? hash : 1;
+}
+
 uint64_t code_hash(const void *bytes, size_t count)
 {
-    const uint64_t hash = XXH3_64bits(bytes, count);
-    return hash != 0 ? hash : 1;
+    return not_zero(XXH3_64bits(bytes, count));
+}
+
+/* By reading: in a mapped file that is cut meanwhile, the next page is a SIGBUS. */
+static uint64_t hash_to_end(int fd)
+{
+    char part[1 << 16];
+    ssize_t count;
+    uint64_t hash = 0;
+    XXH3_state_t *state = XXH3_createState();
+    if (state == NULL)
+        return 0;
+    XXH3_64bits_reset(state);
+    while ((count = read(fd, part, sizeof part)) > 0)
+        XXH3_64bits_update(state, part, (size_t)count);
+    if (count == 0)
+        hash = not_zero(XXH3_64bits_digest(state));
+    XXH3_freeState(state);
+    return hash;
 }
 
 uint64_t code_hash_file(const char *path)
@@ -41,16 +62,8 @@ uint64_t code_hash_file(const char *path)
     const int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (fd < 0)
         return 0;
-    if (fstat(fd, &info) == 0 && S_ISREG(info.st_mode)) {
-        const size_t count = (size_t)info.st_size;
-        void *bytes = count > 0 ? mmap(NULL, count, PROT_READ, MAP_PRIVATE, fd, 0) : MAP_FAILED;
-        if (count == 0)
-            hash = code_hash("", 0);
-        else if (bytes != MAP_FAILED) {
-            hash = code_hash(bytes, count);
-            munmap(bytes, count);
-        }
-    }
+    if (fstat(fd, &info) == 0 && S_ISREG(info.st_mode))
+        hash = hash_to_end(fd);
     close(fd);
     return hash;
 }

@@ -49,7 +49,8 @@ void code_free(fm_code *code);
 
 /* Never 0. */
 uint64_t code_hash(const void *bytes, size_t count);
-/* Of a file's content; 0: it cannot be read. */
+/* Of a file's content, as code_hash of its bytes; 0: it cannot be read. Never waits, whatever lies
+ * there, and a file may change meanwhile. */
 uint64_t code_hash_file(const char *path);
 
 /* Notes a file. One that was read twice and differed gets a hash that no file has. */

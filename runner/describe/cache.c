@@ -8,9 +8,9 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <xxhash.h>
 
 #include "base/text.h"
+#include "code/code.h"
 
 static const char suffix[] = ".description";
 static const off_t plugin_max_bytes = (off_t)64 << 20; /* larger ones are not remembered */
@@ -25,26 +25,14 @@ typedef struct cache_head {
 
 static const char magic[16] = "fragmark cache";
 
-/* false: it is no file that can be read, or too large. Never waits, whatever lies there. */
+/* false: it is no file that can be read, or too large. */
 static bool digest_of(uint64_t *digest, const char *path)
 {
-    char part[1 << 16];
     struct stat info;
-    ssize_t count = 0;
-    const int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-    XXH3_state_t *state = XXH3_createState();
-    bool is_whole = file >= 0 && state != NULL && fstat(file, &info) == 0 &&
-                    S_ISREG(info.st_mode) && info.st_size <= plugin_max_bytes;
-    if (is_whole) {
-        XXH3_64bits_reset(state);
-        while ((count = read(file, part, sizeof part)) > 0)
-            XXH3_64bits_update(state, part, (size_t)count);
-        *digest = XXH3_64bits_digest(state);
-    }
-    XXH3_freeState(state);
-    if (file >= 0)
-        close(file);
-    return is_whole && count == 0;
+    *digest = 0;
+    if (stat(path, &info) == 0 && info.st_size <= plugin_max_bytes)
+        *digest = code_hash_file(path);
+    return *digest != 0;
 }
 
 /* Folders of the path that are not there are made, the last one too; an absolute path. */
@@ -88,7 +76,7 @@ cache_key cache_key_of(const cache *of, const char *plugin)
     if (of->folder[0] == '\0')
         return key;
     key.is_known = digest_of(&key.words[0], plugin);
-    key.words[1] = XXH3_64bits(words, sizeof words);
+    key.words[1] = code_hash(words, sizeof words);
     return key;
 }
 
@@ -97,7 +85,7 @@ static void name_file(char path[FM_PATH_MAX_BYTES + 32], const cache *of, const 
     char *whole = realpath(plugin, NULL);
     const char *name = whole != NULL ? whole : plugin;
     snprintf(path, FM_PATH_MAX_BYTES + 32, "%s/%016llx%s", of->folder,
-             (unsigned long long)XXH3_64bits(name, strlen(name)), suffix);
+             (unsigned long long)code_hash(name, strlen(name)), suffix);
     free(whole);
 }
 
@@ -124,7 +112,7 @@ bool cache_read(answer *found, const cache *from, const char *plugin, const cach
         fstat(file, &info) == 0 && S_ISREG(info.st_mode) &&
         read(file, &head, sizeof head) == (ssize_t)sizeof head && is_about(&head, key, found) &&
         read(file, found->bytes, head.answer.count) == (ssize_t)head.answer.count &&
-        XXH3_64bits(found->bytes, head.answer.count) == head.digest;
+        code_hash(found->bytes, head.answer.count) == head.digest;
     close(file);
     found->head = head.answer;
     return is_good;
@@ -157,7 +145,7 @@ void cache_write(const cache *to, const char *plugin, const cache_key *key, cons
     if (!now.is_known || memcmp(now.words, key->words, sizeof now.words) != 0)
         return;
     cache_head head = { .key = { key->words[0], key->words[1] },
-                        .digest = XXH3_64bits(about->bytes, about->head.count),
+                        .digest = code_hash(about->bytes, about->head.count),
                         .answer = about->head };
     memcpy(head.magic, magic, sizeof magic);
     name_file(path, to, plugin);

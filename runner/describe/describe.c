@@ -1,10 +1,12 @@
 #include "describe.h"
 
 #include <errno.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "answer.h"
@@ -97,8 +99,25 @@ static bool take_answer(fm_plugin_entry *entry, const reading *of)
     return true;
 }
 
-static fm_status take_answers(const reading *of, int file, fm_plugin_entry *const *entries,
-                              const cache_key *keys, size_t count)
+/* The describing process failed, and an answer is missing: no plugin is to blame. */
+static fm_status fail_describing(const reading *of, const fm_process_end *end)
+{
+    char how[64], words[sizeof end->words];
+    if (WIFSIGNALED(end->wait_status)) {
+        const char *name = sigabbrev_np(WTERMSIG(end->wait_status));
+        snprintf(how, sizeof how, "was killed by SIG%s", name != NULL ? name : "?");
+    } else
+        snprintf(how, sizeof how, "exited with status %d", WEXITSTATUS(end->wait_status));
+    memcpy(words, end->words, sizeof words);
+    for (size_t length = strlen(words); length > 0 && words[length - 1] == '\n';)
+        words[--length] = '\0';
+    make_printable(words);
+    return fm_fail(of->err, FM_IO, "plugins cannot be read: the process that describes them %s%s%s",
+                   how, words[0] != '\0' ? ": " : "", words);
+}
+
+static fm_status take_answers(const reading *of, int file, const fm_process_end *end,
+                              fm_plugin_entry *const *entries, const cache_key *keys, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
         answer_head *head = &of->answer->head;
@@ -109,6 +128,8 @@ static fm_status take_answers(const reading *of, int file, fm_plugin_entry *cons
             return fm_fail(of->err, FM_IO, "what plugins are: %s", strerror(errno));
         if ((size_t)got < sizeof *head + head->count) /* it was cut off */
             *head = (answer_head){ 0 };
+        if (head->kind == ANSWER_NONE && end->wait_status != 0)
+            return fail_describing(of, end);
         if (!take_answer(entries[i], of))
             return FM_NO_MEMORY;
         cache_write(&of->cache, entries[i]->path, &keys[i], of->answer);
@@ -135,7 +156,7 @@ static fm_status ask(const reading *of, fm_plugin_entry *const *entries, const c
     };
     fm_status status = process_run(&end, NULL, &desc, of->err);
     if (status == FM_OK)
-        status = take_answers(of, file, entries, keys, count);
+        status = take_answers(of, file, &end, entries, keys, count);
     else
         status = fm_error_prefix(of->err, "plugins cannot be read");
     close(file);

@@ -20,12 +20,14 @@ typedef struct fm_describer {
 } fm_describer;
 
 /* The reader of lists whose plugins are not to run here; list->reader_context is an fm_describer,
- * or NULL. FM_IO, FM_NO_MEMORY: no process could be started, or none of its answers read. */
+ * or NULL. FM_IO, FM_NO_MEMORY: no process could be started, or none of its answers read, or it
+ * ended without an answer for a reason that is no plugin's. */
 fm_plugin_reader describe_plugins;
 
 /* The other process: `fragmark describe OUT PLUGIN...`. Describes each plugin in a process with
  * limits, some at a time, ends what these leave running, and writes the answers to the file OUT, in
- * slots (answer.h). Returns the exit status. */
+ * slots (answer.h). Returns the exit status: 0 if each plugin has one, or is to blame for none;
+ * else why not is said on stderr. */
 int describe_main(const char *out, char *const *plugins);
 
 #endif

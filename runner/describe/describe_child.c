@@ -14,7 +14,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
@@ -22,26 +21,22 @@
 #include "answer.h"
 #include "base/clock.h"
 #include "describe.h"
+#include "process/limits.h"
 
 enum {
     AT_A_TIME = 8,
     WALL_S = 5,      /* of a loader */
     PROCESSOR_S = 2, /* the same */
-    OPEN_FILES = 64,
-    FILE_BYTES = 1 << 20,
 };
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-/* Address space; sanitizers map terabytes. */
-static const rlim_t memory_bytes = (rlim_t)2 << 30;
-#else
-static const rlim_t memory_bytes = RLIM_INFINITY;
-#endif
 
-static void limit(int resource, rlim_t soft, rlim_t hard)
-{
-    const struct rlimit both = { soft, hard };
-    setrlimit(resource, &both);
-}
+static const fm_process_limits loader_limits = {
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) /* these map terabytes */
+    .memory_bytes = (uint64_t)2 << 30,
+#endif
+    .file_bytes = 1 << 20,
+    .cpu_s = PROCESSOR_S,
+    .open_files = 64,
+};
 
 /* Holds for the plugin's code, too. */
 static void bind_hands(void)
@@ -51,11 +46,7 @@ static void bind_hands(void)
     for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++)
         dup2(nowhere, fd);
     close_range(STDERR_FILENO + 1, ~0u, 0);
-    limit(RLIMIT_CORE, 0, 0);
-    limit(RLIMIT_CPU, PROCESSOR_S, PROCESSOR_S + 1);
-    limit(RLIMIT_AS, memory_bytes, memory_bytes);
-    limit(RLIMIT_FSIZE, FILE_BYTES, FILE_BYTES);
-    limit(RLIMIT_NOFILE, OPEN_FILES, OPEN_FILES);
+    limits_set(&loader_limits);
 }
 
 static void describe_loaded(answer *to, const fm_plugin *plugin)
@@ -110,8 +101,8 @@ static void tell_end(answer *to, const char *path, int wait_status, bool is_late
     answer_set_text(to, ANSWER_ENDED, text);
 }
 
-/* Writes a whole answer; a full disk leaves none, which the reader sees. */
-static void put_answer(int file, size_t slot, const answer *from)
+/* Writes a whole answer; a full disk leaves none, and false. */
+static bool put_answer(int file, size_t slot, const answer *from)
 {
     const size_t room = sizeof from->bytes;
     const size_t count = from->head.count < room ? from->head.count : room;
@@ -121,9 +112,10 @@ static void put_answer(int file, size_t slot, const answer *from)
         const ssize_t written = pwrite(file, bytes + done, sizeof from->head + count - done,
                                        (off_t)(slot * ANSWER_SLOT_BYTES + done));
         if (written <= 0 && errno != EINTR)
-            return;
+            return false;
         done += written > 0 ? (size_t)written : 0;
     }
+    return true;
 }
 
 /* Waits until a child has ended, at most WALL_S; it is not reaped. */
@@ -141,18 +133,26 @@ static bool ends_in_time(pid_t pid)
     return false;
 }
 
+/* Nothing is known of the plugin, and it is not to blame: the words go to who asked. */
+static _Noreturn void give_up(const char *path)
+{
+    fprintf(stderr, "%s: %s\n", plugin_file_name(path), strerror(errno));
+    fflush(stderr);
+    _exit(EXIT_FAILURE);
+}
+
 static _Noreturn void keep(int file, size_t slot, const char *path)
 {
     int wait_status = 0;
     answer *shared =
         mmap(NULL, sizeof *shared, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (shared == MAP_FAILED)
-        _exit(1);
+        give_up(path);
     const pid_t loader = fork();
     if (loader == 0)
         load(shared, path);
     if (loader < 0)
-        _exit(1);
+        give_up(path);
     const bool is_late = !ends_in_time(loader);
     kill(loader, SIGKILL);
     kill(-loader, SIGKILL);
@@ -160,23 +160,25 @@ static _Noreturn void keep(int file, size_t slot, const char *path)
         continue;
     if (shared->head.kind < ANSWER_ENDED || shared->head.kind > ANSWER_DESCRIBED)
         tell_end(shared, path, wait_status, is_late);
-    put_answer(file, slot, shared);
+    if (!put_answer(file, slot, shared))
+        give_up(path);
     _exit(0);
 }
 
-/* A plugin that killed its keeper. */
-static void tell_lost(int file, size_t slot, const char *path, int wait_status)
+/* A plugin that killed its keeper; false: nobody is told. */
+static bool tell_lost(int file, size_t slot, const char *path, int signal_number)
 {
     answer *lost = malloc(sizeof *lost);
     char text[FM_PATH_MAX_BYTES + 128];
     if (lost == NULL)
-        return;
-    snprintf(text, sizeof text, "%s: cannot be used: it ended the process that watched it (%s %d)",
-             plugin_file_name(path), WIFSIGNALED(wait_status) ? "signal" : "status",
-             WIFSIGNALED(wait_status) ? WTERMSIG(wait_status) : WEXITSTATUS(wait_status));
+        return false;
+    snprintf(text, sizeof text,
+             "%s: cannot be used: it ended the process that watched it (signal %d)",
+             plugin_file_name(path), signal_number);
     answer_set_text(lost, ANSWER_ENDED, text);
-    put_answer(file, slot, lost);
+    const bool is_told = put_answer(file, slot, lost);
     free(lost);
+    return is_told;
 }
 
 /* The keepers that are at work. */
@@ -208,7 +210,8 @@ static bool start_keeper(keepers *of, size_t slot)
     return true;
 }
 
-static void await_keeper(keepers *of)
+/* false: a plugin has no answer, and not for what it did. */
+static bool await_keeper(keepers *of)
 {
     int wait_status;
     pid_t pid;
@@ -217,27 +220,33 @@ static void await_keeper(keepers *of)
     while (pid < 0 && errno == EINTR);
     const size_t place = find_keeper(of, pid);
     if (place == AT_A_TIME)
-        return;
+        return true;
     of->pids[place] = 0;
-    if (wait_status != 0)
-        tell_lost(of->file, of->slots[place], of->plugins[of->slots[place]], wait_status);
+    if (WIFSIGNALED(wait_status))
+        return tell_lost(of->file, of->slots[place], of->plugins[of->slots[place]],
+                         WTERMSIG(wait_status));
+    return wait_status == 0;
 }
 
 int describe_main(const char *out, char *const *plugins)
 {
     keepers of = { .file = open(out, O_WRONLY | O_CLOEXEC), .plugins = plugins };
     size_t next = 0, running = 0;
-    bool can_start = true;
-    if (of.file < 0)
-        return 1;
+    bool can_start = true, is_whole = true;
+    if (of.file < 0) {
+        perror(out);
+        return EXIT_FAILURE;
+    }
     while (running > 0 || (can_start && plugins[next] != NULL)) {
         if (can_start && running < AT_A_TIME && plugins[next] != NULL) {
             can_start = start_keeper(&of, next++);
+            if (!can_start)
+                perror("no process can be started");
             running += can_start;
             continue;
         }
-        await_keeper(&of);
+        is_whole = await_keeper(&of) && is_whole;
         running--;
     }
-    return can_start ? 0 : 1;
+    return can_start && is_whole ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -14,7 +14,7 @@ typedef struct look {
     FILE *talk;
     const char *worker;
     fm_stop_signals signals;
-    bool stops; /* a signal asked for it */
+    int stop_signal; /* that asked to end; 0: none */
     fm_error *err;
     /* of one worker after the other */
     char folder[FM_PATH_MAX_BYTES];
@@ -83,8 +83,8 @@ static fm_status look_at(look *state, const fm_case *planned)
     fm_status status = request_write(state->request, &request, state->err);
     if (status == FM_OK)
         status = launch_worker(&outcome, &state->signals, &desc, state->err);
-    state->stops = outcome.stop_signal != 0;
-    if (status == FM_OK && !state->stops) {
+    state->stop_signal = outcome.stop_signal;
+    if (status == FM_OK && state->stop_signal == 0) {
         tell(state->talk, planned->settings.mesh, outcome.result);
         if (answer_mesh(outcome.result) == NULL &&
             text_index_add(state->unread, planned->settings.mesh, 0) == FM_TEXT_INDEX_NONE)
@@ -99,7 +99,7 @@ static fm_status look_at_all(look *state, const fm_plan *plan)
 {
     fm_text_index seen = { 0 };
     fm_status status = FM_OK;
-    for (size_t i = 0; i < plan->count && status == FM_OK && !state->stops; i++) {
+    for (size_t i = 0; i < plan->count && status == FM_OK && state->stop_signal == 0; i++) {
         const fm_case *planned = &plan->cases[i];
         if (!has_mesh(planned))
             continue;
@@ -113,11 +113,12 @@ static fm_status look_at_all(look *state, const fm_plan *plan)
     return status;
 }
 
-fm_status mesh_look(fm_text_index *unread, FILE *talk, const fm_plan *plan, const char *worker,
+fm_status mesh_look(fm_mesh_look *found, FILE *talk, const fm_plan *plan, const char *worker,
                     fm_error *err)
 {
-    look state = { .unread = unread, .talk = talk, .worker = worker, .err = err };
+    look state = { .unread = &found->unread, .talk = talk, .worker = worker, .err = err };
     size_t first = 0;
+    *found = (fm_mesh_look){ 0 };
     while (first < plan->count && !has_mesh(&plan->cases[first]))
         first++;
     if (first == plan->count)
@@ -128,6 +129,7 @@ fm_status mesh_look(fm_text_index *unread, FILE *talk, const fm_plan *plan, cons
     status = stop_signals_open(&state.signals, err);
     if (status == FM_OK) {
         status = look_at_all(&state, plan);
+        found->stop_signal = state.stop_signal;
         stop_signals_close(&state.signals);
     }
     remove_files(&state);

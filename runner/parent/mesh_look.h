@@ -8,10 +8,15 @@
 #include "base/text_index.h"
 #include "plan/plan.h"
 
-/* Writes a line for each mesh file of the plan: what was loaded, or why it is refused. Adds the
- * files that were refused to *unread. worker: executable; NULL: this program. Ends early when a
- * signal asks to stop. FM_IO, FM_INVALID: no worker could be started. FM_NO_MEMORY. */
-fm_status mesh_look(fm_text_index *unread, FILE *talk, const fm_plan *plan, const char *worker,
+/* Starts as {0}; whoever looks frees `unread`, whatever the status. */
+typedef struct fm_mesh_look {
+    fm_text_index unread; /* files that were refused */
+    int stop_signal;      /* asked to stop, and not all were looked at; 0: none */
+} fm_mesh_look;
+
+/* Writes a line for each mesh file of the plan: what was loaded, or why it is refused. worker:
+ * executable; NULL: this program. FM_IO, FM_INVALID: no worker could be started. FM_NO_MEMORY. */
+fm_status mesh_look(fm_mesh_look *found, FILE *talk, const fm_plan *plan, const char *worker,
                     fm_error *err);
 
 #endif

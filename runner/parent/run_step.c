@@ -56,8 +56,8 @@ static fm_status fail_run(const json_t *answer, const char *current, fm_error *e
                    current, answer_message(answer));
 }
 
-/* No plugin is at work in a truth. If it dies, or has no memory, under a limit on memory that the
- * run was given (not by --memory-limit, which asks for such rows), then the limit is to blame. */
+/* A launch that dies, or has no memory, under a limit on memory that the run was given (not by
+ * --memory-limit, which asks for such rows): nobody can tell that the limit is not to blame. */
 static bool is_of_given_limit(const run_state *run, json_t *answer)
 {
     struct rlimit limit;
@@ -145,7 +145,8 @@ fm_status run_measure(run_state *run, size_t case_index, uint32_t launch, fm_err
         return status;
     }
     const bool is_interrupted = outcome.kind == FM_LAUNCH_INTERRUPTED;
-    const bool is_unfinished = is_interrupted || answer_is_runs_fault(outcome.result);
+    const bool is_unfinished = is_interrupted || answer_is_runs_fault(outcome.result) ||
+                               is_of_given_limit(run, outcome.result);
     if (is_unfinished)
         status = journal_write(run->journal, FM_JOURNAL_STOP, planned->id, launch, NULL, err);
     else

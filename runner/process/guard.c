@@ -26,27 +26,6 @@ typedef struct guard_state {
     guard_report report;
 } guard_state;
 
-static void limit(int resource, uint64_t value, uint64_t grace)
-{
-    struct rlimit limits;
-    if (value == 0 || getrlimit((__rlimit_resource_t)resource, &limits) != 0)
-        return;
-    if (value + grace < limits.rlim_max)
-        limits.rlim_max = value + grace;
-    limits.rlim_cur = value < limits.rlim_max ? value : limits.rlim_max;
-    setrlimit((__rlimit_resource_t)resource, &limits);
-}
-
-static void set_limits(const fm_process_limits *limits)
-{
-    const struct rlimit no_core = { 0, 0 };
-    setrlimit(RLIMIT_CORE, &no_core);
-    limit(RLIMIT_AS, limits->memory_bytes, 0);
-    limit(RLIMIT_FSIZE, limits->file_bytes, 0);
-    limit(RLIMIT_CPU, limits->cpu_s, 1); /* between both it may still tidy up */
-    limit(RLIMIT_NOFILE, limits->open_files, 0);
-}
-
 static void give_up(const guard_desc *desc)
 {
     const guard_report report = { .error = errno };
@@ -63,7 +42,7 @@ static void become_process(const guard_desc *desc, pid_t parent)
     prctl(PR_SET_PDEATHSIG, SIGKILL); /* of the guard */
     if (getppid() != parent)
         _exit(EXIT_NOT_EXECUTED);
-    set_limits(&process->limits);
+    limits_set(&process->limits);
     if (dup2(desc->input, STDIN_FILENO) < 0 || dup2(desc->talk, STDOUT_FILENO) < 0 ||
         dup2(desc->talk, STDERR_FILENO) < 0 ||
         (process->kept_fd != 0 && fcntl(process->kept_fd, F_SETFD, 0) != 0))

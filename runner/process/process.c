@@ -114,7 +114,13 @@ static int pause_ms(const running *run, const fm_process_desc *desc)
     return left > 0.0 ? (int)(left * 1e3) + 1 : 0;
 }
 
-/* Until the guard has ended; closing `control` asks it to. */
+static bool is_too_late(const running *run, const fm_process_desc *desc)
+{
+    return desc->timeout_s != 0.0 && clock_s() > run->started_s + desc->timeout_s;
+}
+
+/* Until the guard has ended. A report tells that the process has: whoever was stopped meanwhile
+ * (Ctrl-Z) reads it late, and the process was not. Closing `control` asks it to. */
 static void watch(fm_process_end *end, running *run, const fm_stop_signals *signals,
                   const fm_process_desc *desc)
 {
@@ -130,8 +136,8 @@ static void watch(fm_process_end *end, running *run, const fm_stop_signals *sign
         const int stop = signals != NULL ? stop_signals_next(signals, 0.0) : 0;
         if (stop != 0 && end->stop_signal == 0)
             end->stop_signal = stop;
-        if (run->control[1] >= 0 && desc->timeout_s != 0.0 && end->stop_signal == 0 &&
-            clock_s() > run->started_s + desc->timeout_s)
+        if (run->control[1] >= 0 && run->report_bytes == 0 && end->stop_signal == 0 &&
+            is_too_late(run, desc))
             end->is_timed_out = true;
         if (end->stop_signal != 0 || end->is_timed_out)
             close_fd(&run->control[1]);

@@ -23,20 +23,13 @@
 #include <stdint.h>
 
 #include "base/error.h"
+#include "limits.h"
 #include "stop_signals.h"
 
 enum {
     PROCESS_WORDS_BYTES = 2000, /* of the last words that are kept */
     GUARD_PATIENCE_S = 10       /* with processes that do not die */
 };
-
-/* 0: as ours. None can be raised over ours. */
-typedef struct fm_process_limits {
-    uint64_t memory_bytes; /* address space */
-    uint64_t file_bytes;   /* of each file that it writes */
-    uint32_t cpu_s;        /* then it is killed by SIGXCPU, and a second later by SIGKILL */
-    uint32_t open_files;
-} fm_process_limits;
 
 typedef struct fm_process_desc {
     const char *path;        /* executable; NULL: this program */

@@ -1,15 +1,18 @@
 /* What a row was measured by, and what of it changed. */
 #include <setjmp.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cmocka.h>
 
+#include "base/clock.h"
 #include "code/code_json.h"
 #include "code/code_now.h"
 #include "code/codes.h"
@@ -36,6 +39,43 @@ static void hash_of_a_part_hangs_on_what_was_read_not_on_the_order(void **state)
     assert_true(code_part(&one, FM_CODE_PLUGIN) != code_part(&one, FM_CODE_SHADERS));
     code_free(&one);
     code_free(&other);
+}
+
+static void hash_of_a_file_is_that_of_its_bytes(void **state)
+{
+    (void)state;
+    static char bytes[200000];
+    char path[] = "/tmp/fragmark-code-XXXXXX";
+    const int fd = mkstemp(path);
+    assert_true(fd >= 0);
+    assert_true(code_hash_file(path) == code_hash("", 0));
+    for (size_t i = 0; i < sizeof bytes; i++)
+        bytes[i] = (char)(i * i >> 3);
+    assert_int_equal(write(fd, bytes, sizeof bytes), sizeof bytes);
+    assert_true(code_hash_file(path) == code_hash(bytes, sizeof bytes));
+    close(fd);
+    unlink(path);
+    assert_true(code_hash_file(path) == 0);
+    assert_true(code_hash_file("/") == 0);
+}
+
+/* An editor, or a build, at work. */
+static void file_that_shrinks_while_it_is_hashed_harms_nobody(void **state)
+{
+    (void)state;
+    char path[] = "/tmp/fragmark-code-XXXXXX";
+    const int fd = mkstemp(path);
+    assert_true(fd >= 0);
+    const pid_t writer = fork();
+    while (writer == 0)
+        if (ftruncate(fd, 8 << 20) != 0 || ftruncate(fd, 0) != 0)
+            _exit(1);
+    for (const double end = clock_s() + 0.3; clock_s() < end;)
+        assert_true(code_hash_file(path) != 0);
+    kill(writer, SIGKILL);
+    waitpid(writer, NULL, 0);
+    close(fd);
+    unlink(path);
 }
 
 static void file_that_changed_between_two_reads_equals_neither(void **state)
@@ -227,6 +267,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hash_of_a_part_hangs_on_what_was_read_not_on_the_order),
+        cmocka_unit_test(hash_of_a_file_is_that_of_its_bytes),
+        cmocka_unit_test(file_that_shrinks_while_it_is_hashed_harms_nobody),
         cmocka_unit_test(file_that_changed_between_two_reads_equals_neither),
         cmocka_unit_test(code_comes_back_from_json),
         cmocka_unit_test(json_of_another_form_is_refused),

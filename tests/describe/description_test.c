@@ -1,4 +1,5 @@
-/* A descriptor as bytes: what comes back is what was written, and damaged bytes are refused. */
+/* A descriptor as bytes: what comes back is what was written, and damaged bytes are refused. So are
+ * plugins without an answer, but not for a process that failed. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -7,8 +8,11 @@
 #include <cmocka.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/random.h"
+#include "describe/describe.h"
 #include "describe/description.h"
 #include "describe/fields.h"
 #include "plugin/plugin.h"
@@ -206,6 +210,36 @@ static void a_text_without_an_end_is_not_written(void **state)
     free(text);
 }
 
+/* What is said of a plugin when this program describes it. */
+static fm_status describe_by(fm_plugin_entry *entry, const char *program, fm_error *err)
+{
+    const fm_describer describer = { .program = program, .cache = "" };
+    const fm_plugin_list list = { .reader_context = &describer };
+    *entry = (fm_plugin_entry){ .id = "a", .path = "/nowhere/a/a.so" };
+    return describe_plugins(&list, &entry, 1, err);
+}
+
+static void plugin_is_not_refused_for_a_process_that_failed(void **state)
+{
+    (void)state;
+    static const char script[] = "#!/bin/sh\necho no room >&2\nkill -KILL $$\n";
+    char program[] = "/tmp/fragmark-describe-XXXXXX";
+    fm_plugin_entry entry;
+    fm_error err = { 0 };
+    assert_int_equal(describe_by(&entry, "/bin/false", &err), FM_IO);
+    assert_non_null(strstr(err.message, "exited with status 1"));
+    assert_false(plugin_entry_is_refused(&entry));
+    const int file = mkstemp(program);
+    assert_int_equal(write(file, script, sizeof script - 1), sizeof script - 1);
+    assert_int_equal(fchmod(file, 0700), 0);
+    close(file);
+    assert_int_equal(describe_by(&entry, program, &err), FM_IO);
+    assert_non_null(strstr(err.message, "was killed by SIGKILL: no room"));
+    assert_int_equal(describe_by(&entry, "/bin/true", &err), FM_OK);
+    assert_true(plugin_entry_is_refused(&entry));
+    unlink(program);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -214,6 +248,7 @@ int main(void)
         cmocka_unit_test(a_cut_or_longer_description_is_refused),
         cmocka_unit_test(damaged_descriptions_are_taken_whole_or_refused),
         cmocka_unit_test(a_text_without_an_end_is_not_written),
+        cmocka_unit_test(plugin_is_not_refused_for_a_process_that_failed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 
 #include <cmocka.h>
@@ -39,6 +40,29 @@ static void run_blames_nobody_for_what_the_run_cannot_write(void **state)
     (void)state;
     assert_runs_fault("lost", "disk full");
     assert_runs_fault("full", "partial");
+}
+
+/* A method cannot be told from the limit; with the limit gone its row is its own. */
+static void run_blames_no_method_for_a_limit_on_memory(void **state)
+{
+    (void)state;
+    static const char *const ids[] = { "crash", NULL };
+    fake_plan fake;
+    fm_run_result result;
+    fm_error err = { 0 };
+    struct rlimit before;
+    open_with_worker(&fake, ids, 1);
+    assert_int_equal(getrlimit(RLIMIT_AS, &before), 0);
+    const struct rlimit given = { (rlim_t)1 << 50, before.rlim_max };
+    assert_int_equal(setrlimit(RLIMIT_AS, &given), 0);
+    const fm_status status = run_in(&result, &fake, 5, &err);
+    assert_int_equal(setrlimit(RLIMIT_AS, &before), 0);
+    assert_int_equal(status, FM_IO);
+    assert_non_null(strstr(err.message, "ulimit -v"));
+    assert_int_equal(count_in_file(&fake, "out/summary.csv", ",crash,7,"), 0);
+    assert_int_equal(run_well(&fake).failed, 1);
+    assert_int_equal(count_in_file(&fake, "out/summary.csv", ",crash,7,"), 1);
+    fake_close(&fake);
 }
 
 static void run_does_not_believe_a_worker_that_could_have_answered(void **state)
@@ -251,6 +275,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(run_blames_nobody_for_what_the_run_cannot_write),
+        cmocka_unit_test(run_blames_no_method_for_a_limit_on_memory),
         cmocka_unit_test(run_does_not_believe_a_worker_that_could_have_answered),
         cmocka_unit_test(run_that_was_killed_blames_nobody),
         cmocka_unit_test(run_never_takes_its_own_death_for_evidence),

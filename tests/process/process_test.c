@@ -240,6 +240,29 @@ static void process_that_hangs_is_ended_with_all_that_it_started(void **state)
     scratch_close(&here);
 }
 
+/* As Ctrl-Z does; the process has a group of its own, and goes on. */
+static void process_that_ended_in_time_is_not_late_for_a_parent_that_was_stopped(void **state)
+{
+    (void)state;
+    scratch here;
+    int wait_status;
+    scratch_open(&here);
+    const pid_t parent = fork();
+    if (parent == 0) {
+        const fm_process_end end =
+            run_script("touch ready; sleep 0.3", (fm_process_desc){ .timeout_s = 1.0 });
+        _exit(end.is_timed_out || !WIFEXITED(end.wait_status) ? 1 : 0);
+    }
+    while (access("ready", F_OK) != 0)
+        usleep(1000);
+    kill(parent, SIGSTOP);
+    usleep(1500000);
+    kill(parent, SIGCONT);
+    assert_int_equal(waitpid(parent, &wait_status, 0), parent);
+    assert_int_equal(wait_status, 0);
+    scratch_close(&here);
+}
+
 static void tell_to_stop(void *context)
 {
     kill(getpid(), *(const int *)context);
@@ -340,6 +363,7 @@ int main(void)
         cmocka_unit_test(process_tells_of_a_log_that_cannot_be_written),
         cmocka_unit_test(process_ends_with_all_that_it_started),
         cmocka_unit_test(process_that_hangs_is_ended_with_all_that_it_started),
+        cmocka_unit_test(process_that_ended_in_time_is_not_late_for_a_parent_that_was_stopped),
         cmocka_unit_test(process_is_ended_by_each_signal_that_stops_us),
         cmocka_unit_test(signals_that_are_ignored_stop_nobody),
         cmocka_unit_test(process_ends_when_its_parent_is_killed),
