@@ -182,6 +182,7 @@ int cli_run_plan(const fm_arguments *arguments, const cli_run_desc *desc)
         .memory_bytes = arguments->memory_bytes,
         .progress = arguments->quiet ? NULL : arguments->cli->talk,
         .figures = desc->figures,
+        .figure_cases = desc->figure_cases,
     };
     if (expect_devices(arguments->cli->devices, desc->plan, &err) != FM_OK)
         return cli_fail(arguments->cli, &err);
