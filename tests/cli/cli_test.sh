@@ -134,6 +134,10 @@ if [ -x "$(dirname "$program")/fragmark-report" ]; then
     mkdir -p "$here/blocked/report.html"
     check report_that_fails_is_told 5 "again with" "$program" run --method z-buffer --device dummy \
         -a n=4 -a width_px=16 -a height_px=16 -a frames=1 -a launches=1 --no-images -o "$here/blocked"
+    mkdir -p "$here/both-fail/report.html"
+    check report_that_fails_is_told_beside_cases_that_do 5 "again with" "$program" run --method z-buffer \
+        --device dummy --memory-limit 60M -a n=4 -a width_px=4000 -a height_px=4000 -a frames=1 -a launches=1 \
+        --no-images -o "$here/both-fail"
 fi
 # What is asked for and missing is told before anything is measured, and nothing is left.
 plain() { "$program" run --method z-buffer "${small[@]}" -a launches=1 -o "$here/absent" "$@"; }
