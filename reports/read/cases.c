@@ -131,15 +131,6 @@ static fm_status read_text(fm_case_row *result, size_t at, const char *text)
     return FM_OK;
 }
 
-/* Decibels and likenesses may be infinite, or below zero; all else is an amount. */
-static fm_status read_metric(double *value, fm_metric metric, const fm_table *table, size_t row,
-                             size_t index, fm_error *err)
-{
-    const bool is_likeness = metric == FM_METRIC_PSNR_DB || metric == FM_METRIC_SSIM;
-    return is_likeness ? table_number(value, table, row, index, err)
-                       : table_amount(value, table, row, index, err);
-}
-
 /* One cell, by what its column is. */
 static fm_status read_cell(fm_case_row *result, const fm_column *column, const fm_table *table,
                            size_t row, size_t index, fm_error *err)
@@ -150,7 +141,8 @@ static fm_status read_cell(fm_case_row *result, const fm_column *column, const f
     case FM_COLUMN_FACT:
         return fact_is_kept(column->fact) ? read_text(result, fact_at[column->fact], text) : FM_OK;
     case FM_COLUMN_METRIC:
-        return read_metric(&result->metric[column->metric], column->metric, table, row, index, err);
+        return table_in_range(&result->metric[column->metric], fm_metrics[column->metric].range,
+                              table, row, index, err);
     case FM_COLUMN_LOW:
         return table_number(&result->low[column->metric], table, row, index, err);
     case FM_COLUMN_HIGH:
@@ -162,8 +154,8 @@ static fm_status read_cell(fm_case_row *result, const fm_column *column, const f
     if (key == KEY_COUNT)
         return FM_OK;
     return keys[key].is_text ? read_text(result, keys[key].at, text)
-                             : table_amount((double *)(void *)((char *)result + keys[key].at),
-                                            table, row, index, err);
+                             : table_in_range((double *)(void *)((char *)result + keys[key].at),
+                                              FM_RANGE_AMOUNT, table, row, index, err);
 }
 
 /* index: where each of fm_columns is in the table. */

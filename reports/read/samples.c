@@ -98,19 +98,18 @@ static fm_status read_frame(uint64_t *frame, const fm_table *table, size_t row,
     return status;
 }
 
-/* Times are amounts; other metrics may be below zero, or infinite decibels. */
+/* Metrics of a newer program, and counters of the simulated GPU, may be any number. */
 static fm_status read_value(double *value, const fm_sample_rows *samples, size_t row, size_t column,
                             fm_error *err)
 {
     const fm_table *table = samples->table;
     const char *metric = table_cell(table, row, samples->metric_column);
-    const char *ending = strrchr(metric, '_');
+    const fm_metric_info *info = metric_describe(metric);
     if (metric[0] == '\0')
         return fm_fail(err, FM_INVALID, "%s:%u: metric: the row has none", table->path,
                        table->lines[row]);
-    if (ending != NULL && (strcmp(ending, "_ms") == 0 || strcmp(ending, "_ns") == 0))
-        return table_amount(value, table, row, column, err);
-    return table_number(value, table, row, column, err);
+    return info != NULL ? table_in_range(value, info->range, table, row, column, err)
+                        : table_number(value, table, row, column, err);
 }
 
 static fm_status find_columns(sample_columns *columns, fm_sample_rows *samples, fm_error *err)

@@ -12,6 +12,7 @@
 #include "base/data.h"
 #include "bundle_methods.h"
 #include "bundle_papers.h"
+#include "bundle_scenes.h"
 #include "child/child.h"
 #include "items.h"
 #include "libraries.h"
@@ -93,9 +94,13 @@ static fm_status add_all_data(making *of, fm_error *err)
 {
     static const char *const yaml[] = { ".yml", NULL }, *const results[] = { ".csv", ".json",
                                                                              NULL };
-    static const char *const meshes[] = { ".obj", ".ply", ".off", ".stl", ".stream", NULL };
+    /* And what no scene names, such as the buffers of a glTF file. */
+    static const char *const meshes[] = { ".obj",  ".ply", ".off", ".stl",    ".3ds",
+                                          ".gltf", ".glb", ".bin", ".stream", NULL };
     uint32_t ignored = 0;
     fm_status status = add_data(of, DATA_SCENES, &of->result->scenes, yaml, err);
+    if (status == FM_OK)
+        status = bundle_add_scene_files(&of->items, err);
     if (status == FM_OK)
         status = add_data(of, DATA_SCENES, &ignored, meshes, err);
     if (status == FM_OK)

@@ -30,7 +30,8 @@ typedef struct fm_bundle_result {
 } fm_bundle_result;
 
 /* Makes it beside the directory, tries it, and renames it: there is a whole bundle or none.
- * FM_INVALID: the directory is not empty, or no such method, with the nearest. FM_IO: what could
+ * FM_INVALID: the directory is not empty, no such method, with the nearest, or a scene's mesh lies
+ * outside its folder. FM_IO: what could
  * not be read or written, too little room, or the bundle does not start. FM_UNSUPPORTED: no ldd. */
 fm_status bundle_make(fm_bundle_result *result, const fm_bundle_desc *desc, fm_error *err);
 

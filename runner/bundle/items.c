@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <xxhash.h>
@@ -52,7 +53,7 @@ static bool ends_as_one(const char *name, const char *const *endings)
 {
     const char *ending = strrchr(name, '.');
     for (; ending != NULL && *endings != NULL; endings++)
-        if (strcmp(ending, *endings) == 0)
+        if (strcasecmp(ending, *endings) == 0)
             return true;
     return false;
 }

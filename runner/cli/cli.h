@@ -137,8 +137,9 @@ typedef struct cli_run_desc {
     const char *command; /* for the manifest */
     const fm_plan *plan; /* without a case: a reproduction of tables alone */
     const fm_plugin_list *plugins;
-    const char *const *figures; /* ids; ends with NULL */
-    const fm_text *memory;      /* memory.csv, which the report shows; NULL or empty: none */
+    const char *const *figures;  /* ids; ends with NULL */
+    const fm_text *figure_cases; /* figures.csv; NULL: none */
+    const fm_text *memory;       /* memory.csv, which the report shows; NULL or empty: none */
 } cli_run_desc;
 /* The plan is run, reported and summed up. */
 int cli_run_plan(const fm_arguments *arguments, const cli_run_desc *desc);

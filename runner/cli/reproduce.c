@@ -251,32 +251,17 @@ static bool has_pictures(const fm_figure_list *list, const char *id)
     return false;
 }
 
-/* DIR/figures.csv: which case belongs to which figure; one may belong to several. A run that goes
- * on has it. */
-static fm_status write_figure_cases(const char *directory, const fm_text *csv, fm_error *err)
-{
-    char path[2 * FM_PATH_MAX_BYTES];
-    snprintf(path, sizeof path, "%s/figures.csv", directory);
-    if (access(path, F_OK) == 0)
-        return FM_OK;
-    const fm_status status = path_make_folders(directory, err);
-    if (status != FM_OK)
-        return status;
-    return csv->failed ? fm_fail(err, FM_NO_MEMORY, "%s", path)
-                       : text_write_file(path, csv->bytes, csv->length, err);
-}
-
-/* What the plan's cases are for: figures.csv, and whose pictures are kept. */
-static fm_status assign_cases(fm_plan *plan, const char *directory, const spec_files *specs,
+/* What the plan's cases are for: csv gets the text of figures.csv (one may belong to several
+ * figures), and it is said whose pictures are kept. */
+static fm_status assign_cases(fm_text *csv, fm_plan *plan, const spec_files *specs,
                               const fm_arguments *arguments, const fm_plugin_list *plugins,
                               fm_error *err)
 {
-    fm_text csv = { 0 };
     fm_text_index ids = { 0 };
     fm_status status = plan_index_ids(&ids, plan)
                            ? FM_OK
                            : fm_fail(err, FM_NO_MEMORY, "no memory for %zu cases", plan->count);
-    text_add(&csv, "figure,case_id\n");
+    text_add(csv, "figure,case_id\n");
     for (size_t i = 0; i < plan->count; i++)
         plan->cases[i].no_image = true;
     for (size_t i = 0; i < specs->paths.count && status == FM_OK; i++) {
@@ -284,14 +269,13 @@ static fm_status assign_cases(fm_plan *plan, const char *directory, const spec_f
         const char *id = specs->owners.items[i];
         status = arguments_expand(&of_figure, plugins, arguments, specs->paths.items[i], err);
         for (size_t j = 0; j < of_figure.count && status == FM_OK; j++)
-            text_add(&csv, "%s,%s\n", id, of_figure.cases[j].id);
+            text_add(csv, "%s,%s\n", id, of_figure.cases[j].id);
         if (status == FM_OK && has_pictures(specs->list, id))
             choose_pictures(plan, &ids, &of_figure);
         plan_free(&of_figure);
     }
-    if (status == FM_OK)
-        status = write_figure_cases(directory, &csv, err);
-    text_free(&csv);
+    if (status == FM_OK && csv->failed)
+        status = fm_fail(err, FM_NO_MEMORY, "no memory for figures.csv");
     text_index_free(&ids);
     return status;
 }
@@ -334,7 +318,7 @@ static int run_specs(const spec_files *specs, const fm_arguments *arguments)
     char directory[FM_PATH_MAX_BYTES];
     fm_plan plan = { 0 };
     fm_plugin_list plugins = { 0 };
-    fm_text memory = { 0 };
+    fm_text memory = { 0 }, figure_cases = { 0 };
     fm_error err = { 0 };
     cli_directory(directory, arguments);
     const cli_run_desc desc = { .directory = directory,
@@ -342,17 +326,19 @@ static int run_specs(const spec_files *specs, const fm_arguments *arguments)
                                 .plan = &plan,
                                 .plugins = &plugins,
                                 .figures = text_list_items(&specs->ids),
+                                .figure_cases = &figure_cases,
                                 .memory = &memory };
     if (make_plan(&plan, &plugins, arguments, specs, &err) != FM_OK ||
         make_tables(&memory, arguments->cli, specs, &plugins, &err) != FM_OK ||
         report_expect(arguments, desc.figures, &err) != FM_OK ||
-        assign_cases(&plan, directory, specs, arguments, &plugins, &err) != FM_OK)
+        assign_cases(&figure_cases, &plan, specs, arguments, &plugins, &err) != FM_OK)
         code = cli_fail(arguments->cli, &err);
     else
         code = cli_run_plan(arguments, &desc);
     if (code != CLI_USAGE && code != CLI_DAMAGED)
         keep_specs(specs, directory);
     text_free(&memory);
+    text_free(&figure_cases);
     plan_free(&plan);
     plugin_list_close(&plugins);
     return code;

@@ -67,7 +67,8 @@ char *cli_command_text(int argc, char **argv)
     return text.bytes;
 }
 
-/* CLI_DONE, CLI_CLAIM_FAILS, or CLI_INCOMPLETE: the results are there, and the report is not. */
+/* CLI_DONE, CLI_CLAIM_FAILS, or CLI_INCOMPLETE: the results are there, and the report is not, or
+ * it was drawn and lacks something, which the program has told. */
 static int report(const fm_arguments *arguments, const char *directory)
 {
     const fm_cli *cli = arguments->cli;
@@ -77,8 +78,11 @@ static int report(const fm_arguments *arguments, const char *directory)
     const int code = report_execute(program, directory, arguments->reference);
     if (code == CLI_DONE || code == CLI_CLAIM_FAILS)
         return code;
-    fprintf(cli->talk, "%s failed (%d); again with: fragmark report %s\n", program, code,
-            directory);
+    if (code == CLI_INCOMPLETE)
+        fprintf(cli->talk, "the report is missing or incomplete, as told above; ");
+    else
+        fprintf(cli->talk, "%s failed (%d); ", program, code);
+    fprintf(cli->talk, "again with: fragmark report %s\n", directory);
     return CLI_INCOMPLETE;
 }
 
@@ -182,6 +186,7 @@ int cli_run_plan(const fm_arguments *arguments, const cli_run_desc *desc)
         .memory_bytes = arguments->memory_bytes,
         .progress = arguments->quiet ? NULL : arguments->cli->talk,
         .figures = desc->figures,
+        .figure_cases = desc->figure_cases,
     };
     if (expect_devices(arguments->cli->devices, desc->plan, &err) != FM_OK)
         return cli_fail(arguments->cli, &err);
@@ -199,9 +204,7 @@ int cli_run_plan(const fm_arguments *arguments, const cli_run_desc *desc)
     const int reported = result.stop_signal == 0 && !arguments->no_report
                              ? report(arguments, desc->directory)
                              : CLI_DONE;
-    if (reported == CLI_CLAIM_FAILS)
-        return reported;
-    return code != CLI_DONE ? code : reported;
+    return reported != CLI_DONE ? reported : code;
 }
 
 int cli_run(const fm_cli *cli, int argc, char **argv)

@@ -140,6 +140,17 @@ static void tell_continued(run_state *run)
         progress_tell(&run->progress, run->desc->directory, anew);
 }
 
+/* Anew each time: the same plan may be for other figures now. */
+static fm_status write_figure_cases(const run_state *run, fm_error *err)
+{
+    const fm_text *csv = run->desc->figure_cases;
+    char path[FM_PATH_MAX_BYTES];
+    if (csv == NULL)
+        return FM_OK;
+    const fm_status status = run_path(path, run, "figures.csv", "", "", err);
+    return status == FM_OK ? text_write_file(path, csv->bytes, csv->length, err) : status;
+}
+
 static fm_status prepare(run_state *run, fm_error *err)
 {
     fm_status status = truth_jobs_create(&run->truths, run->plan, run->plugins, err);
@@ -149,6 +160,8 @@ static fm_status prepare(run_state *run, fm_error *err)
         status = run_make_folders(run, err);
     if (status == FM_OK)
         status = run_resume(run, err);
+    if (status == FM_OK)
+        status = write_figure_cases(run, err);
     if (status == FM_OK)
         status = write_manifest(run, false, err);
     if (status == FM_OK)

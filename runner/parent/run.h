@@ -26,6 +26,7 @@
 #include <stdio.h>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "plan/plan.h"
 
 typedef struct fm_run_desc {
@@ -42,7 +43,8 @@ typedef struct fm_run_desc {
     uint64_t memory_bytes; /* address-space limit of one launch; 0: none */
     FILE *progress;        /* NULL: silent */
     const char *worker;    /* executed as `WORKER worker REQUEST RESULT`; NULL: this program */
-    const char *const *figures; /* ids that this run is for, for the report; ends with NULL */
+    const char *const *figures;  /* ids that this run is for, for the report; ends with NULL */
+    const fm_text *figure_cases; /* figures.csv: which case is for which of them; NULL: none */
 } fm_run_desc;
 
 /* Outcome of a run, for the exit code. */

@@ -56,6 +56,23 @@ want some_methods_are_bundled 0 "methods, " "$program" bundle "$here/some" --met
 [ -e "$here/some/lib/fragmark/methods/null/null.so" ] || fail "some_methods: the floor is missing"
 [ ! -e "$here/some/lib/fragmark/methods/ab-ll/ab-ll.so" ] || fail "some_methods: ab-ll is there"
 
+# A scene comes with its mesh, whatever its ending, and the files of that; or there is no bundle.
+scenes=$here/scenes
+mkdir -p "$scenes/mine"
+printf 'generator: mesh\nmesh: A.OBJ\n' >"$scenes/mine/capitals.yml"
+printf 'generator: mesh\nmesh: ../b.mesh\n' >"$scenes/mine/beside.yml"
+touch "$scenes/mine/A.OBJ" "$scenes/b.mesh" "$scenes/c.gltf" "$scenes/c.BIN"
+want meshes_are_bundled 0 "methods, " env FRAGMARK_SCENE_PATH="$scenes" "$program" bundle "$here/meshes" \
+    --methods kplus-array
+for file in mine/A.OBJ b.mesh c.gltf c.BIN; do
+    [ -e "$here/meshes/share/fragmark/scenes/$file" ] || fail "meshes_are_bundled: $file is missing"
+done
+touch "$here/outside.obj"
+printf 'generator: mesh\nmesh: ../outside.obj\n' >"$scenes/far.yml"
+want mesh_outside_is_refused 2 "outside.obj" env FRAGMARK_SCENE_PATH="$scenes" "$program" bundle "$here/none" \
+    --methods kplus-array
+[ ! -e "$here/none" ] || fail "mesh_outside_is_refused: something is left"
+
 # Nothing is left of what cannot be made.
 want unknown_method_names_the_nearest 2 "the nearest is 'kplus-array'" "$program" bundle "$here/none" \
     --methods kplus-aray

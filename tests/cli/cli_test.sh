@@ -91,6 +91,10 @@ check unknown_claim_names_the_nearest 2 "nearest is 'KP-20'" "$program" reproduc
 check claim_names_its_figure 0 "4 ok" "$program" reproduce KP-26 --smoke --device dummy --no-report -o "$here/claim"
 grep -q '^kplus-03,' "$here/claim/figures.csv" || complain "claim_names_its_figure: figures.csv does not"
 
+check figure_on_an_unknown_device_is_refused 2 "vulkan:99" \
+    "$program" reproduce kplus-05 --smoke --device vulkan:99 -o "$here/refused"
+[ -e "$here/refused" ] && complain "figure_on_an_unknown_device: something is left"
+
 # Each figure's cases are measured as often as it says; what two want, as often as either wants.
 mkdir "$here/two"
 chart='charts: [{ id: c, title: c, x: k, y: frame_ms }]'
@@ -104,6 +108,14 @@ check figures_keep_their_launches 0 "3 ok" env FRAGMARK_FIGURE_PATH="$here/two" 
 counts=$(cut -d, -f2,18 "$here/both/summary.csv" | tail -n +2 | sort -t, -k2n | while IFS=, read -r id _; do
     grep -c ",$id,.*,frame_ms," "$here/both/samples.csv"; done | sort -n | paste -sd,)
 [ "$counts" = 2,3,6 ] || complain "figures_keep_their_launches: $counts frames, not 2,3,6"
+# The same cases may be for other figures than before: the later command says so.
+printf 'id: one-3\npaper: one\ntitle: t\nrun: { %s, k: [2, 3], launches: 2, frames: 1, warmup: 0 }\n%s\n' \
+    "$head" "$chart" >"$here/two/one-3.yml"
+for figure in one-1 one-3; do
+    check cases_are_for_what_is_asked_for 0 "2 ok" env FRAGMARK_FIGURE_PATH="$here/two" "$program" \
+        reproduce "$figure" --device dummy --no-report -o "$here/later"
+    [ "$(grep -c "^$figure," "$here/later/figures.csv")" = 2 ] || complain "cases_are_for_what_is_asked_for: $figure"
+done
 
 # A table of memory is a figure like others: nothing is measured, claims are judged.
 check table_is_reproduced 0 "0 differ" "$program" reproduce kplus-table1 -o "$here/table"
@@ -122,6 +134,10 @@ if [ -x "$(dirname "$program")/fragmark-report" ]; then
     mkdir -p "$here/blocked/report.html"
     check report_that_fails_is_told 5 "again with" "$program" run --method z-buffer --device dummy \
         -a n=4 -a width_px=16 -a height_px=16 -a frames=1 -a launches=1 --no-images -o "$here/blocked"
+    mkdir -p "$here/both-fail/report.html"
+    check report_that_fails_is_told_beside_cases_that_do 5 "again with" "$program" run --method z-buffer \
+        --device dummy --memory-limit 60M -a n=4 -a width_px=4000 -a height_px=4000 -a frames=1 -a launches=1 \
+        --no-images -o "$here/both-fail"
 fi
 # What is asked for and missing is told before anything is measured, and nothing is left.
 plain() { "$program" run --method z-buffer "${small[@]}" -a launches=1 -o "$here/absent" "$@"; }
