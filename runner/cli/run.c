@@ -181,6 +181,7 @@ int cli_run_plan(const fm_arguments *arguments, const cli_run_desc *desc)
         .timeout_s = arguments->timeout_s,
         .memory_bytes = arguments->memory_bytes,
         .progress = arguments->quiet ? NULL : arguments->cli->talk,
+        .talk = arguments->cli->talk,
         .figures = desc->figures,
     };
     if (expect_devices(arguments->cli->devices, desc->plan, &err) != FM_OK)

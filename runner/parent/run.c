@@ -137,7 +137,7 @@ static void tell_continued(run_state *run)
             "(remove the folder, or name another, to measure anew)");
     snprintf(anew, sizeof anew, "rows that are measured anew: %u", run->forgotten);
     if (run->forgotten > 0)
-        progress_tell(&run->progress, run->desc->directory, anew);
+        progress_tell_always(&run->progress, run->desc->directory, anew);
 }
 
 static fm_status prepare(run_state *run, fm_error *err)
@@ -166,6 +166,7 @@ fm_status run_cases(fm_run_result *result, const fm_plan *plan, const fm_plugin_
     assert(plan->launches > 0 && plan->count < UINT32_MAX);
     *result = (fm_run_result){ 0 };
     run.progress.out = desc->progress;
+    run.progress.always = desc->talk;
     run.progress.is_terminal = desc->progress != NULL && isatty(fileno(desc->progress));
     run.order = calloc(plan->count > 0 ? plan->count : 1, sizeof *run.order);
     if (run.order == NULL)

@@ -41,6 +41,8 @@ typedef struct fm_run_desc {
     uint32_t timeout_s;    /* of one launch; 0 is 600 */
     uint64_t memory_bytes; /* address-space limit of one launch; 0: none */
     FILE *progress;        /* NULL: silent */
+    FILE *talk;            /* for what is told also without progress: which rows of an earlier run
+                              are forgotten, and why; NULL: nothing is */
     const char *worker;    /* executed as `WORKER worker REQUEST RESULT`; NULL: this program */
     const char *const *figures; /* ids that this run is for, for the report; ends with NULL */
 } fm_run_desc;

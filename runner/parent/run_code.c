@@ -323,7 +323,7 @@ static fm_status settle(run_state *run, const change_list *list, fm_error *err)
     say_changes(&told, list);
     const char *what = told.bytes != NULL ? told.bytes : "";
     if (run->desc->is_fresh) {
-        progress_tell(&run->progress, "other code, measured anew", what);
+        progress_tell_always(&run->progress, "other code, measured anew", what);
         status = forget_rows(run, list, err);
     } else {
         run->is_other_code = true;
