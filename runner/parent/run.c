@@ -95,6 +95,7 @@ static void count_outcomes(fm_run_result *result, const run_state *run)
             result->failed++;
     }
     result->stop_signal = run->stop_signal;
+    result->is_counted = true;
 }
 
 /* How far the machine let the run measure in peace. */
@@ -149,6 +150,7 @@ static fm_status prepare(run_state *run, fm_error *err)
         status = run_make_folders(run, err);
     if (status == FM_OK)
         status = run_resume(run, err);
+    run->is_resumed = status == FM_OK;
     if (status == FM_OK)
         status = write_manifest(run, false, err);
     if (status == FM_OK)
@@ -177,7 +179,7 @@ fm_status run_cases(fm_run_result *result, const fm_plan *plan, const fm_plugin_
         status = prepare(&run, err);
     if (status == FM_OK)
         status = run_launches(&run, err);
-    if (status != FM_OK && run.results != NULL && !run.is_damaged)
+    if (status != FM_OK && run.is_resumed)
         results_write_summary(run.results, NULL); /* what the last one lacks; nobody asks how */
     if (hears_signals)
         stop_signals_close(&run.signals);
@@ -189,7 +191,7 @@ fm_status run_cases(fm_run_result *result, const fm_plan *plan, const fm_plugin_
         status = write_manifest(&run, run.stop_signal == 0, err);
     if (status == FM_OK && run.stop_signal == 0)
         run_remove_truths(&run);
-    if (run.results != NULL && !run.is_damaged)
+    if (run.is_resumed)
         count_outcomes(result, &run);
     result->is_damaged = run.is_damaged;
     result->forgotten = run.forgotten;

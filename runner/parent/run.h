@@ -49,6 +49,8 @@ typedef struct fm_run_desc {
 
 /* Outcome of a run, for the exit code. */
 typedef struct fm_run_result {
+    bool is_counted; /* else the run failed before it knew what an earlier one left, and the
+                        counts of rows say nothing */
     uint32_t ok, not_supported, failed;
     uint32_t forgotten;  /* rows of an earlier run, to be measured anew */
     uint32_t skipped;    /* not finished, because the run was interrupted */

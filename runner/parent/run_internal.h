@@ -34,6 +34,7 @@ typedef struct run_state {
     uint32_t *order; /* [plan->count]: of the running round */
     uint32_t forgotten;
     int stop_signal;
+    bool is_resumed; /* results hold all that an earlier run left */
     bool is_damaged, is_other_code;
 } run_state;
 

@@ -61,6 +61,7 @@ static void run_well(const fake_plan *fake, bool is_fresh)
     fm_error err = { 0 };
     if (run_in(&result, fake, is_fresh, &err) != FM_OK)
         fail_msg("%s", err.message);
+    assert_true(result.is_counted);
     assert_int_equal(result.ok, 1);
 }
 
@@ -216,6 +217,7 @@ static void device_that_cannot_be_opened_is_nobodys_fault(void **state)
     assert_non_null(strstr(err.message, "dummy:0: rows were measured on it"));
     assert_non_null(strstr(err.message, "no driver"));
     assert_false(result.is_other_code || result.is_damaged);
+    assert_false(result.is_counted); /* one row is ok, but none was read */
     assert_int_equal(count_in_file(&fake, "out/summary.csv", ",ok,"), 1);
     fake_close(&fake);
 }
