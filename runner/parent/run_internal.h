@@ -90,7 +90,8 @@ fm_status run_check_codes(run_state *run, fm_error *err);
 /* Puts into the answer what it may have read, if it says nothing, and compares it with what the row
  * was measured by. FM_INVALID: is_other_code. */
 fm_status run_fit_code(run_state *run, size_t case_index, json_t *answer, fm_error *err);
-/* Whether the truth at path is there, and was captured by what is here now. */
+/* Whether the truth at path is there, and was captured by what is here now. Else nothing is left of
+ * it: what lies beside a truth would be taken for the next one's. */
 fm_status run_find_truth(bool *is_there, run_state *run, size_t job, const char *path,
                          fm_error *err);
 /* Keeps beside a truth what captured it. */
