@@ -87,6 +87,8 @@ fm_status run_read_codes(run_state *run, fm_error *err);
 /* Compares that with what is here now: refuses with is_other_code, or with is_fresh writes into the
  * journal that they are to be forgotten. */
 fm_status run_check_codes(run_state *run, fm_error *err);
+/* Puts into the answer of a worker that died what it may have read. */
+void run_guess_code(const run_state *run, size_t case_index, json_t *answer);
 /* Puts into the answer what it may have read, if it says nothing, and compares it with what the row
  * was measured by. FM_INVALID: is_other_code. */
 fm_status run_fit_code(run_state *run, size_t case_index, json_t *answer, fm_error *err);
