@@ -126,7 +126,7 @@ static void sum_up(const fm_arguments *arguments, const fm_run_result *result,
         fprintf(talk, "interrupted, nothing is lost: continue with the same command: %s%s%s\n",
                 desc->command, arguments->directory == NULL ? " -o " : "",
                 arguments->directory == NULL ? desc->directory : "");
-    if (desc->plan->count == 0)
+    if (desc->plan->count == 0 || !result->is_counted)
         return;
     fprintf(talk, "%s/summary.csv: %u ok, %u not supported, %u failed", desc->directory, result->ok,
             result->not_supported, result->failed);
@@ -185,6 +185,7 @@ int cli_run_plan(const fm_arguments *arguments, const cli_run_desc *desc)
         .timeout_s = arguments->timeout_s,
         .memory_bytes = arguments->memory_bytes,
         .progress = arguments->quiet ? NULL : arguments->cli->talk,
+        .talk = arguments->cli->talk,
         .figures = desc->figures,
         .figure_cases = desc->figure_cases,
     };

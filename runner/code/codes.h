@@ -8,7 +8,7 @@
 typedef struct fm_row_code {
     uint32_t index;    /* in codes, plus 1; 0: no launch yet */
     bool lacks_code;   /* a launch was recorded without */
-    uint32_t launches; /* that ended */
+    uint32_t launches; /* that ended, or whose worker died */
     uint32_t forgets;  /* how often what was measured of the row is to be forgotten */
 } fm_row_code;
 
@@ -23,8 +23,8 @@ typedef struct fm_codes {
 fm_status codes_create(fm_codes *codes, size_t row_count, fm_error *err);
 void codes_free(fm_codes *codes);
 
-/* A launch of the row ended; NULL: it was recorded without a code. What it read beyond what is
- * known of the row is added to that. FM_NO_MEMORY. */
+/* A launch of the row ended, or its worker died; NULL: it was recorded without a code. What it read
+ * beyond what is known of the row is added to that. FM_NO_MEMORY. */
 fm_status codes_add(fm_codes *codes, size_t row, const fm_code *code, fm_error *err);
 void codes_forget(fm_codes *codes, size_t row);
 /* Borrowed until the next codes_add; NULL: nothing is known of the row. */

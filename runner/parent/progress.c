@@ -57,6 +57,13 @@ void progress_tell(fm_progress *progress, const char *subject, const char *sente
         progress_tick(progress);
 }
 
+void progress_tell_always(fm_progress *progress, const char *subject, const char *sentence)
+{
+    if (progress->out == NULL && progress->always != NULL)
+        fprintf(progress->always, "%s: %s\n", subject, sentence);
+    progress_tell(progress, subject, sentence);
+}
+
 void progress_begin(fm_progress *progress, const char *current)
 {
     snprintf(progress->current, sizeof progress->current, "%s", current);

@@ -95,6 +95,7 @@ static void count_outcomes(fm_run_result *result, const run_state *run)
             result->failed++;
     }
     result->stop_signal = run->stop_signal;
+    result->is_counted = true;
 }
 
 /* How far the machine let the run measure in peace. */
@@ -137,7 +138,7 @@ static void tell_continued(run_state *run)
             "(remove the folder, or name another, to measure anew)");
     snprintf(anew, sizeof anew, "rows that are measured anew: %u", run->forgotten);
     if (run->forgotten > 0)
-        progress_tell(&run->progress, run->desc->directory, anew);
+        progress_tell_always(&run->progress, run->desc->directory, anew);
 }
 
 /* Anew each time: the same plan may be for other figures now. */
@@ -160,6 +161,7 @@ static fm_status prepare(run_state *run, fm_error *err)
         status = run_make_folders(run, err);
     if (status == FM_OK)
         status = run_resume(run, err);
+    run->is_resumed = status == FM_OK;
     if (status == FM_OK)
         status = write_figure_cases(run, err);
     if (status == FM_OK)
@@ -179,6 +181,7 @@ fm_status run_cases(fm_run_result *result, const fm_plan *plan, const fm_plugin_
     assert(plan->launches > 0 && plan->count < UINT32_MAX);
     *result = (fm_run_result){ 0 };
     run.progress.out = desc->progress;
+    run.progress.always = desc->talk;
     run.progress.is_terminal = desc->progress != NULL && isatty(fileno(desc->progress));
     run.order = calloc(plan->count > 0 ? plan->count : 1, sizeof *run.order);
     if (run.order == NULL)
@@ -189,7 +192,7 @@ fm_status run_cases(fm_run_result *result, const fm_plan *plan, const fm_plugin_
         status = prepare(&run, err);
     if (status == FM_OK)
         status = run_launches(&run, err);
-    if (status != FM_OK && run.results != NULL && !run.is_damaged)
+    if (status != FM_OK && run.is_resumed)
         results_write_summary(run.results, NULL); /* what the last one lacks; nobody asks how */
     if (hears_signals)
         stop_signals_close(&run.signals);
@@ -201,7 +204,7 @@ fm_status run_cases(fm_run_result *result, const fm_plan *plan, const fm_plugin_
         status = write_manifest(&run, run.stop_signal == 0, err);
     if (status == FM_OK && run.stop_signal == 0)
         run_remove_truths(&run);
-    if (run.results != NULL && !run.is_damaged)
+    if (run.is_resumed)
         count_outcomes(result, &run);
     result->is_damaged = run.is_damaged;
     result->forgotten = run.forgotten;

@@ -42,6 +42,8 @@ typedef struct fm_run_desc {
     uint32_t timeout_s;    /* of one launch; 0 is 600 */
     uint64_t memory_bytes; /* address-space limit of one launch; 0: none */
     FILE *progress;        /* NULL: silent */
+    FILE *talk;            /* for what is told also without progress: which rows of an earlier run
+                              are forgotten, and why; NULL: nothing is */
     const char *worker;    /* executed as `WORKER worker REQUEST RESULT`; NULL: this program */
     const char *const *figures;  /* ids that this run is for, for the report; ends with NULL */
     const fm_text *figure_cases; /* figures.csv: which case is for which of them; NULL: none */
@@ -49,6 +51,8 @@ typedef struct fm_run_desc {
 
 /* Outcome of a run, for the exit code. */
 typedef struct fm_run_result {
+    bool is_counted; /* else the run failed before it knew what an earlier one left, and the
+                        counts of rows say nothing */
     uint32_t ok, not_supported, failed;
     uint32_t forgotten;  /* rows of an earlier run, to be measured anew */
     uint32_t skipped;    /* not finished, because the run was interrupted */

@@ -76,6 +76,8 @@ static fm_status note_death(run_state *run, const run_attempt *attempt, char **d
     if (attempt->case_index == RUN_NO_CASE)
         return FM_OK;
     json_t *told = answer_make(answer_status(result), *death);
+    if (told != NULL) /* other code is not to answer for it */
+        run_guess_code(run, attempt->case_index, told);
     const fm_status status =
         journal_write(run->journal, FM_JOURNAL_DIED, run->plan->cases[attempt->case_index].id,
                       attempt->launch, told, err);

@@ -88,8 +88,9 @@ static fm_status hear(void *context, fm_journal_event event, const char *case_id
         return FM_OK;
     /* Nobody keeps a journal from being edited: an answer in it is held to what a worker's is. */
     status = answer_check(result, run_frames(run, &run->plan->cases[row].settings), err);
-    if (status != FM_OK || event != FM_JOURNAL_END)
+    if (status != FM_OK)
         return status;
+    /* The end of a launch, or a death, which is told of and counts at the next one. */
     const bool has_code = answer_code(&code, result);
     status = codes_add(&run->codes, row, has_code ? &code : NULL, err);
     code_free(&code);
@@ -323,7 +324,7 @@ static fm_status settle(run_state *run, const change_list *list, fm_error *err)
     say_changes(&told, list);
     const char *what = told.bytes != NULL ? told.bytes : "";
     if (run->desc->is_fresh) {
-        progress_tell(&run->progress, "other code, measured anew", what);
+        progress_tell_always(&run->progress, "other code, measured anew", what);
         status = forget_rows(run, list, err);
     } else {
         run->is_other_code = true;
@@ -368,7 +369,7 @@ fm_status run_check_codes(run_state *run, fm_error *err)
     return status;
 }
 
-static void guess_code(const run_state *run, size_t case_index, json_t *answer)
+void run_guess_code(const run_state *run, size_t case_index, json_t *answer)
 {
     const fm_plugin_entry *entry =
         plugin_list_find(run->plugins, run->plan->cases[case_index].method);
@@ -394,7 +395,7 @@ fm_status run_fit_code(run_state *run, size_t case_index, json_t *answer, fm_err
     fm_status status = FM_OK;
     if (!answer_code(&code, answer)) { /* it died, or never began */
         code_free(&code);
-        guess_code(run, case_index, answer);
+        run_guess_code(run, case_index, answer);
         (void)answer_code(&code, answer);
     }
     note_driver(run, planned->device, code.driver);
@@ -450,9 +451,9 @@ fm_status run_find_truth(bool *is_there, run_state *run, size_t job, const char 
     fm_code code = { 0 };
     fm_status status = code_path(file, path, err);
     *is_there = false;
-    if (status != FM_OK || access(path, R_OK) != 0)
+    if (status != FM_OK)
         return status;
-    json_t *json = json_load_file(file, 0, NULL);
+    json_t *json = access(path, R_OK) == 0 ? json_load_file(file, 0, NULL) : NULL;
     *is_there = code_from_json(&code, json);
     if (*is_there)
         status = compare_row(&changes, &names, run, case_index, &code, err);

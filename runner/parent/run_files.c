@@ -66,8 +66,11 @@ void run_remove_folders(const run_state *run)
 
 fm_status run_forget(run_state *run, size_t case_index, fm_error *err)
 {
+    const fm_status status = journal_write(run->journal, FM_JOURNAL_FORGET,
+                                           run->plan->cases[case_index].id, 0, NULL, err);
+    if (status != FM_OK) /* what the journal still has keeps its images */
+        return status;
     remove_images(run, case_index);
     run->forgotten++;
-    return journal_write(run->journal, FM_JOURNAL_FORGET, run->plan->cases[case_index].id, 0, NULL,
-                         err);
+    return FM_OK;
 }

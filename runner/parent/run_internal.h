@@ -34,6 +34,7 @@ typedef struct run_state {
     uint32_t *order; /* [plan->count]: of the running round */
     uint32_t forgotten;
     int stop_signal;
+    bool is_resumed; /* results hold all that an earlier run left */
     bool is_damaged, is_other_code;
 } run_state;
 
@@ -86,10 +87,13 @@ fm_status run_read_codes(run_state *run, fm_error *err);
 /* Compares that with what is here now: refuses with is_other_code, or with is_fresh writes into the
  * journal that they are to be forgotten. */
 fm_status run_check_codes(run_state *run, fm_error *err);
+/* Puts into the answer of a worker that died what it may have read. */
+void run_guess_code(const run_state *run, size_t case_index, json_t *answer);
 /* Puts into the answer what it may have read, if it says nothing, and compares it with what the row
  * was measured by. FM_INVALID: is_other_code. */
 fm_status run_fit_code(run_state *run, size_t case_index, json_t *answer, fm_error *err);
-/* Whether the truth at path is there, and was captured by what is here now. */
+/* Whether the truth at path is there, and was captured by what is here now. Else nothing is left of
+ * it: what lies beside a truth would be taken for the next one's. */
 fm_status run_find_truth(bool *is_there, run_state *run, size_t job, const char *path,
                          fm_error *err);
 /* Keeps beside a truth what captured it. */

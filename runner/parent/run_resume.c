@@ -16,8 +16,11 @@ static void plan_hash(char hash[17], const fm_plan *plan, const fm_run_desc *des
         return;
     XXH3_64bits_reset(state);
     XXH3_64bits_update(state, numbers, sizeof numbers);
-    for (size_t i = 0; i < plan->count; i++)
+    for (size_t i = 0; i < plan->count; i++) {
+        const uint32_t launches = plan_case_launches(plan, i);
         XXH3_64bits_update(state, plan->cases[i].id, strlen(plan->cases[i].id) + 1);
+        XXH3_64bits_update(state, &launches, sizeof launches);
+    }
     snprintf(hash, 17, "%016llx", (unsigned long long)XXH3_64bits_digest(state));
     XXH3_freeState(state);
 }

@@ -66,13 +66,14 @@ refused() {
     [ "$before" = "$after" ] || complain "$name: files changed: $(diff <(echo "$before") <(echo "$after"))"
 }
 
-# renewed FOLDER TIMES-AB-ARRAY TIMES-KPLUS-ARRAY ARGUMENT...: with --fresh both rows are ok, and so
-# often each was begun anew in all
+# renewed FOLDER NAME TIMES-AB-ARRAY TIMES-KPLUS-ARRAY ARGUMENT...: --fresh says, also with -q, the name of
+# what changed; both rows are ok, and so often each was begun anew in all
 renewed() {
-    local folder=$1 wanted="$2 $3" got
-    shift 3
+    local folder=$1 name=$2 wanted="$3 $4" got
+    shift 4
     run "$folder" -q --fresh "$@"
     [ "$code" -eq 0 ] || complain "--fresh: exit code $code: $(cat "$work/talk")"
+    grep -q "other code.*$name" "$work/talk" || complain "--fresh: $name is not named: $(cat "$work/talk")"
     [ "$(grep -c ',ok,' "$folder/summary.csv")" -eq 2 ] || complain "--fresh: $(cat "$folder/summary.csv")"
     got="$(forgotten "$folder" ab-array) $(forgotten "$folder" kplus-array)"
     [ "$got" = "$wanted" ] || complain "rows were begun anew $got times, not $wanted"
@@ -82,30 +83,30 @@ renewed() {
 kill_after_first "$work/killed"
 echo '// edited' >>"$work/bin/methods/kplus-array/store.glsl"
 refused "$work/killed" store.glsl -a launches=2
-renewed "$work/killed" 0 1 -a launches=2
+renewed "$work/killed" store.glsl 0 1 -a launches=2
 
 # The same, after the run was done
 run "$work/done" -a launches=1
 echo '// edited' >>"$work/bin/methods/kplus-array/resolve.glsl"
 refused "$work/done" resolve.glsl -a launches=1
-renewed "$work/done" 0 1 -a launches=1
+renewed "$work/done" resolve.glsl 0 1 -a launches=1
 
 # The runner's GLSL, which both read
 echo '// edited' >>"$work/bin/methods/common/emit.glsl"
 refused "$work/done" common/emit.glsl -a launches=1
-renewed "$work/done" 1 2 -a launches=1
+renewed "$work/done" common/emit.glsl 1 2 -a launches=1
 
 # A plugin, and the floor, on which all ratios rest
 echo >>"$work/bin/methods/ab-array/ab-array.so"
 refused "$work/done" ab-array.so -a launches=1
-renewed "$work/done" 2 2 -a launches=1
+renewed "$work/done" ab-array.so 2 2 -a launches=1
 echo >>"$work/bin/methods/null/null.so"
 refused "$work/done" null.so -a launches=1
 
 # The program
 echo >>"$work/bin/fragmark"
 refused "$work/done" '(program, plugin: null.so)' -a launches=1
-renewed "$work/done" 3 3 -a launches=1
+renewed "$work/done" '(program, plugin: null.so)' 3 3 -a launches=1
 run "$work/done" -q -a launches=1
 [ "$code" -eq 0 ] || complain "nothing changed, and the exit code is $code: $(cat "$work/talk")"
 columns=$(tail -1 "$work/done/summary.csv" | rev | cut -d, -f1-4 | rev)

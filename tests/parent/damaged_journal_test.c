@@ -172,6 +172,23 @@ static void answers_in_the_journal_are_checked(void **state)
     fake_close(&fake);
 }
 
+/* The launches of a plan may be as many as before, and those of a case others: sequences. */
+static void journal_of_other_launches_is_of_another_plan(void **state)
+{
+    (void)state;
+    static const char *const ids[] = { "a", "b", NULL };
+    fake_plan fake;
+    fm_run_result result;
+    fm_error err = { 0 };
+    open_with_worker(&fake, ids, 2);
+    run_well(&fake);
+    fake.cases[1].settings.launches = 1;
+    assert_int_equal(run_in(&result, &fake, &err), FM_INVALID);
+    assert_false(result.is_damaged);
+    assert_non_null(strstr(err.message, "belongs to another plan"));
+    fake_close(&fake);
+}
+
 static void results_whose_journal_is_empty_are_refused(void **state)
 {
     (void)state;
@@ -197,6 +214,7 @@ int main(void)
         cmocka_unit_test(answers_that_cannot_be_are_the_workers_fault),
         cmocka_unit_test(a_damaged_journal_costs_nothing),
         cmocka_unit_test(answers_in_the_journal_are_checked),
+        cmocka_unit_test(journal_of_other_launches_is_of_another_plan),
         cmocka_unit_test(results_whose_journal_is_empty_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -159,6 +159,27 @@ static void run_remembers_a_death_when_it_goes_on(void **state)
     fake_close(&fake);
 }
 
+/* Who mended a method that died does not go on with a death of the old one. */
+static void run_does_not_blame_new_code_for_a_death_of_the_old(void **state)
+{
+    (void)state;
+    static const char *const ids[] = { "crash", NULL };
+    fake_plan fake;
+    fm_run_result result;
+    fm_error err = { 0 };
+    open_with_worker(&fake, ids, 1);
+    run_well(&fake);
+    char *journal = fake_read(&fake, "out/journal.jsonl");
+    *strstr(journal, "{\"event\":\"end\"") = '\0';
+    fake_write(&fake, "out/journal.jsonl", journal, "w");
+    free(journal);
+    fake_write(&fake, "worker.sh", "# edited\n", "a");
+    assert_int_equal(run_in(&result, &fake, 20, &err), FM_INVALID);
+    assert_true(result.is_other_code);
+    assert_non_null(strstr(err.message, "1 row of crash (program)"));
+    fake_close(&fake);
+}
+
 static void run_stops_where_workers_are_killed_from_outside(void **state)
 {
     (void)state;
@@ -281,6 +302,7 @@ int main(void)
         cmocka_unit_test(run_never_takes_its_own_death_for_evidence),
         cmocka_unit_test(run_forgives_one_death_and_tells_of_it),
         cmocka_unit_test(run_remembers_a_death_when_it_goes_on),
+        cmocka_unit_test(run_does_not_blame_new_code_for_a_death_of_the_old),
         cmocka_unit_test(run_stops_where_workers_are_killed_from_outside),
         cmocka_unit_test(run_is_interrupted_where_the_worker_hears_it_first),
         cmocka_unit_test(run_leaves_no_heir_of_a_worker),

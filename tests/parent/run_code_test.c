@@ -21,6 +21,8 @@ static const char worker_script[] =
     "echo \"$job $launch\" >>\"$here/calls\"\n"
     "code=code\n"
     "[ \"$launch\" = 0 ] || [ ! -e \"$here/later\" ] || code=later\n"
+    "[ $job != truth ] || ! ls \"$here\"/out/truth/*.code >/dev/null 2>&1 || echo stale "
+    ">>\"$here/calls\"\n"
     "[ $job != truth ] || touch \"$(sed -n 's,.*\"truth\": \"\\(.*\\)\".*,\\1,p' \"$2\")\"\n"
     "[ $job != device ] || [ ! -e \"$here/no-device\" ] || {\n"
     "    echo '{\"status\":\"not_supported\",\"message\":\"no driver\"}' >\"$3\"; exit 0; }\n"
@@ -61,6 +63,7 @@ static void run_well(const fake_plan *fake, bool is_fresh)
     fm_error err = { 0 };
     if (run_in(&result, fake, is_fresh, &err) != FM_OK)
         fail_msg("%s", err.message);
+    assert_true(result.is_counted);
     assert_int_equal(result.ok, 1);
 }
 
@@ -216,6 +219,7 @@ static void device_that_cannot_be_opened_is_nobodys_fault(void **state)
     assert_non_null(strstr(err.message, "dummy:0: rows were measured on it"));
     assert_non_null(strstr(err.message, "no driver"));
     assert_false(result.is_other_code || result.is_damaged);
+    assert_false(result.is_counted); /* one row is ok, but none was read */
     assert_int_equal(count_in_file(&fake, "out/summary.csv", ",ok,"), 1);
     fake_close(&fake);
 }
@@ -238,6 +242,25 @@ static void truth_of_other_code_is_captured_again(void **state)
     fake_close(&fake);
 }
 
+/* A truth that was of no use is gone, and what captured it lies there still. */
+static void code_of_a_lost_truth_is_not_the_next_ones(void **state)
+{
+    (void)state;
+    fake_plan fake;
+    fm_run_result result;
+    char command[256];
+    open_with_worker(&fake, 2);
+    fake_write(&fake, "stop", "", "w");
+    assert_int_equal(run_in(&result, &fake, false, NULL), FM_OK);
+    snprintf(command, sizeof command, "ls %s/out/truth/*.code && rm %s/out/truth/*.truth",
+             fake.folder, fake.folder);
+    assert_int_equal(system(command), 0);
+    assert_int_equal(run_in(&result, &fake, false, NULL), FM_OK);
+    assert_int_equal(count_in_file(&fake, "calls", "truth"), 2);
+    assert_int_equal(count_in_file(&fake, "calls", "stale"), 0);
+    fake_close(&fake);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -248,6 +271,7 @@ int main(void)
         cmocka_unit_test(driver_is_looked_at_once_and_only_where_a_row_has_one),
         cmocka_unit_test(device_that_cannot_be_opened_is_nobodys_fault),
         cmocka_unit_test(truth_of_other_code_is_captured_again),
+        cmocka_unit_test(code_of_a_lost_truth_is_not_the_next_ones),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

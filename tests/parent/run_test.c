@@ -1,7 +1,9 @@
 /* The parent, with a shell script in a worker's place. */
 #include <setjmp.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <sys/resource.h>
 
 #include <cmocka.h>
 
@@ -234,6 +236,37 @@ static void run_measures_anew_what_is_to_be_retried(void **state)
     fake_close(&fake);
 }
 
+/* The journal has no room for the line: what it still has of the case keeps its image. */
+static void run_that_cannot_forget_removes_nothing(void **state)
+{
+    (void)state;
+    static const char *const ids[] = { "unlike", NULL };
+    fake_plan fake;
+    fm_run_result result;
+    struct rlimit before;
+    char directory[96], image[160];
+    open_with_worker(&fake, ids, 2);
+    assert_int_equal(run_well(&fake).failed, 1);
+    snprintf(directory, sizeof directory, "%s/out", fake.folder);
+    snprintf(image, sizeof image, "%s/images/%s.rgba32f", directory, fake.cases[0].id);
+    assert_int_equal(text_write_file(image, "old", 3, NULL), FM_OK);
+    const fm_run_desc desc = { .directory = directory,
+                               .retried = 1u << FM_CASE_WRONG_IMAGE,
+                               .worker = fake.worker };
+    char *journal = fake_read(&fake, "out/journal.jsonl");
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
+    const struct rlimit limit = { .rlim_cur = strlen(journal), .rlim_max = before.rlim_max };
+    signal(SIGXFSZ, SIG_IGN);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &limit), 0);
+    const fm_status status = run_cases(&result, &fake.plan, &fake.list, &desc, NULL);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &before), 0);
+    assert_int_equal(status, FM_IO);
+    assert_int_equal(result.forgotten, 0);
+    assert_int_equal(access(image, F_OK), 0);
+    free(journal);
+    fake_close(&fake);
+}
+
 static void run_refuses_a_folder_of_another_plan(void **state)
 {
     (void)state;
@@ -295,6 +328,7 @@ int main(void)
         cmocka_unit_test(run_finds_an_exact_method_that_draws_differently),
         cmocka_unit_test(run_repeats_nothing_that_is_finished),
         cmocka_unit_test(run_measures_anew_what_is_to_be_retried),
+        cmocka_unit_test(run_that_cannot_forget_removes_nothing),
         cmocka_unit_test(run_refuses_a_folder_of_another_plan),
         cmocka_unit_test(run_refuses_results_without_a_journal),
         cmocka_unit_test(run_needs_a_floor_and_a_worker),
