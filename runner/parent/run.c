@@ -193,7 +193,9 @@ fm_status run_cases(fm_run_result *result, const fm_plan *plan, const fm_plugin_
     if (status == FM_OK)
         status = run_launches(&run, err);
     if (status != FM_OK && run.is_resumed)
-        results_write_summary(run.results, NULL); /* what the last one lacks; nobody asks how */
+        results_end(run.results, NULL); /* what had no turn has its row; nobody asks how it went */
+    else if (status != FM_OK)
+        run_remove_folders(&run);
     if (hears_signals)
         stop_signals_close(&run.signals);
     if (status == FM_OK)

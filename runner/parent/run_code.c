@@ -328,7 +328,6 @@ static fm_status settle(run_state *run, const change_list *list, fm_error *err)
         status = forget_rows(run, list, err);
     } else {
         run->is_other_code = true;
-        run_remove_folders(run);
         status = fm_fail(err, FM_INVALID,
                          "%s: other code than its rows were measured by: %.1500s. Nothing was "
                          "launched, and its files are as they were; --fresh measures these rows "
