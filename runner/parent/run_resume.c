@@ -89,12 +89,28 @@ static fm_status forget_retried(run_state *run, fm_error *err)
     return status == FM_OK ? read_results(run, err) : status;
 }
 
+/* Ids hold what a plugin says of itself: of one that is refused now they are others, and its plan
+ * is another. */
+static void tell_refused(const fm_plan *plan, fm_error *err)
+{
+    size_t i = 0;
+    while (i < plan->count && plan->cases[i].skip_status != FM_CASE_PLUGIN_ERROR)
+        i++;
+    if (err == NULL || i == plan->count)
+        return;
+    const fm_error told = *err;
+    fm_fail(err, told.status, "%.1200s; method %s is refused now: %.600s", told.message,
+            plan->cases[i].method, plan->cases[i].skip);
+}
+
 fm_status run_resume(run_state *run, fm_error *err)
 {
     char hash[17];
     plan_hash(hash, run->plan, run->desc);
     fm_status status =
         journal_open(&run->journal, run->desc->directory, hash, &run->is_damaged, err);
+    if (status == FM_INVALID)
+        tell_refused(run->plan, err);
     if (status == FM_OK)
         status = run_read_codes(run, err);
     if (status == FM_OK)

@@ -11,7 +11,6 @@
 enum {
     NAME_BYTES = 127,   /* of a metric, a pass, a buffer */
     DEVICE_BYTES = 127, /* what fm_device_caps holds */
-    MESSAGE_BYTES = 8191,
     LIST_LENGTH = 4096,
     HASH_DIGITS = 16,
 };
@@ -25,7 +24,7 @@ typedef struct field_rule {
 /* The name of the field stands in protocol.h; JSON_TRUE stands for both truth values. */
 static const field_rule answer_fields[] = {
     { "status", JSON_STRING, NAME_BYTES },
-    { "message", JSON_STRING, MESSAGE_BYTES },
+    { "message", JSON_STRING, FM_MESSAGE_MAX_BYTES },
     { "is_runs_fault", JSON_TRUE, 0 },
     { "is_truth_unusable", JSON_TRUE, 0 },
     { "is_starved", JSON_TRUE, 0 },
@@ -49,7 +48,7 @@ static const field_rule modelled_fields[] = {
 };
 static const field_rule mesh_fields[] = {
     { "file", JSON_STRING, FM_PATH_MAX_BYTES - 1 },
-    { "told", JSON_STRING, MESSAGE_BYTES },
+    { "told", JSON_STRING, FM_MESSAGE_MAX_BYTES },
     { "format", JSON_STRING, NAME_BYTES },
     { "ignored", JSON_ARRAY, 0 },
     { "low", JSON_ARRAY, 0 },

@@ -111,8 +111,9 @@ static fm_status check_plan(fm_journal *journal, const fm_text *text, bool *is_d
         status = foreign(journal, is_damaged, err);
     else if (strcmp(plan, journal->plan_hash) != 0)
         status = fm_fail(err, FM_INVALID,
-                         "%s belongs to another plan (other cases, launches, frames or seed): "
-                         "repeat its command to continue it, or choose another -o",
+                         "%s belongs to another plan (other cases, launches, frames or seed, or "
+                         "other versions of methods or meshes): repeat its command to continue "
+                         "it, or choose another -o",
                          journal->path);
     else {
         snprintf(journal->run_id, sizeof journal->run_id, "%s", run_id);

@@ -331,8 +331,12 @@ json_t *answer_make_runs_fault(const char *message)
 void answer_add_note(json_t *answer, const char *note)
 {
     const char *message = answer_message(answer);
+    const char *between = message[0] != '\0' ? "; " : "";
+    const size_t added = strlen(between) + strlen(note);
+    const size_t room = added < FM_MESSAGE_MAX_BYTES ? FM_MESSAGE_MAX_BYTES - added : 0;
     fm_text all = { 0 };
-    text_add(&all, "%s%s%s", message, message[0] != '\0' ? "; " : "", note);
+    text_add(&all, "%.*s%s%.*s", (int)room, message, between,
+             FM_MESSAGE_MAX_BYTES - (int)strlen(between), note);
     if (!all.failed)
         json_object_set_new(answer, "message", any_text(all.bytes));
     text_free(&all);

@@ -68,6 +68,9 @@ typedef struct fm_request {
     uint32_t launch;
 } fm_request;
 
+/* The longest message of an answer, in bytes. */
+enum { FM_MESSAGE_MAX_BYTES = 8191 };
+
 /* What a worker exits with when its answer could not be written. */
 enum { WORKER_EXIT_NO_ANSWER = 74 };
 
@@ -115,7 +118,8 @@ void answer_add_sample_named(json_t *samples, uint32_t frame, const char *metric
 json_t *answer_make(fm_case_status status, const char *message);
 /* The same where the run is to blame. */
 json_t *answer_make_runs_fault(const char *message);
-/* Adds to the message: "; NOTE". */
+/* Adds to the message: "; NOTE". What has no room then is cut from the end of the message, and of a
+ * note that has none alone. */
 void answer_add_note(json_t *answer, const char *note);
 
 /* Reading an answer: the parent's side. */

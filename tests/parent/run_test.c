@@ -273,12 +273,19 @@ static void run_refuses_a_folder_of_another_plan(void **state)
     static const char *const ids[] = { "a", NULL };
     fake_plan fake;
     fm_run_result result;
+    char reason[] = "no hook 'after'";
     fm_error err = { 0 };
     open_with_worker(&fake, ids, 1);
     run_well(&fake);
     fake.plan.seed = 2;
     assert_int_equal(run_in(&result, &fake, 5, &err), FM_INVALID);
     assert_non_null(strstr(err.message, "another plan"));
+    assert_null(strstr(err.message, "refused"));
+    fake.cases[0].skip = reason;
+    fake.cases[0].skip_status = FM_CASE_PLUGIN_ERROR;
+    assert_int_equal(run_in(&result, &fake, 5, &err), FM_INVALID);
+    assert_non_null(strstr(err.message, "another plan"));
+    assert_non_null(strstr(err.message, "method a is refused now: no hook 'after'"));
     fake_close(&fake);
 }
 

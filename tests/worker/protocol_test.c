@@ -123,6 +123,22 @@ static void answer_takes_messages_of_any_bytes(void **state)
     json_decref(answer);
 }
 
+/* As long as an answer's may be, since a journal with a longer one would be refused. */
+static void answer_notes_stay_within_the_limit(void **state)
+{
+    (void)state;
+    static char longest[FM_MESSAGE_MAX_BYTES + 10];
+    memset(longest, 'x', sizeof longest - 1);
+    json_t *answer = answer_make(FM_CASE_CRASH, longest + 9);
+    assert_int_equal(strlen(answer_message(answer)), FM_MESSAGE_MAX_BYTES);
+    answer_add_note(answer, "and so");
+    assert_int_equal(strlen(answer_message(answer)), FM_MESSAGE_MAX_BYTES);
+    assert_string_equal(answer_message(answer) + FM_MESSAGE_MAX_BYTES - 9, "x; and so");
+    answer_add_note(answer, longest);
+    assert_int_equal(strlen(answer_message(answer)), FM_MESSAGE_MAX_BYTES);
+    json_decref(answer);
+}
+
 static void answer_samples_carry_the_unit_of_their_metric(void **state)
 {
     (void)state;
@@ -146,6 +162,7 @@ int main(void)
         cmocka_unit_test(request_read_refuses_what_is_no_request),
         cmocka_unit_test(answer_of_the_runs_fault_gives_no_verdict),
         cmocka_unit_test(answer_takes_messages_of_any_bytes),
+        cmocka_unit_test(answer_notes_stay_within_the_limit),
         cmocka_unit_test(answer_samples_carry_the_unit_of_their_metric),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
