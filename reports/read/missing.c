@@ -7,7 +7,7 @@
 
 #include "base/path.h"
 
-/* How every line of a journal begins and ends (parent/journal.h). */
+/* How every line of a journal begins and ends (results/journal.h). */
 static const char line_start[] = "{\"event\":\"";
 
 static fm_status add(fm_text_list *missing, const char *sentence, fm_error *err)

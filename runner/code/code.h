@@ -13,7 +13,8 @@
 
 #include "base/text.h"
 
-/* The four parts; a hash of 0 is "not known", and differs from nothing. */
+/* The four parts. A hash of 0: of program and driver it is not known, and differs from nothing; of
+ * a file, it cannot be read, which differs from each content. */
 typedef enum fm_code_part {
     FM_CODE_PROGRAM, /* the executable's content */
     FM_CODE_DRIVER,  /* what tells this build of the driver, and its device, from all others; of
