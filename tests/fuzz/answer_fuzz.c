@@ -4,8 +4,8 @@
 #include <unistd.h>
 
 #include "fuzz.h"
-#include "results/answer_check.h"
 #include "parent_kit.h"
+#include "results/answer_check.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
 {

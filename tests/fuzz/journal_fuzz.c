@@ -5,9 +5,9 @@
 #include <string.h>
 
 #include "fuzz.h"
+#include "parent_kit.h"
 #include "results/answer_check.h"
 #include "results/journal.h"
-#include "parent_kit.h"
 
 static fm_status take(void *context, fm_journal_event event, const char *case_id, uint32_t launch,
                       const json_t *result, fm_error *err)

@@ -46,8 +46,8 @@ void kit_break(scene_kit *kit, const kit_mistake *mistake);
 
 /* The plugin's descriptor. Fails the test if the plugin was refused. */
 const fm_method_desc *kit_method(const scene_kit *kit, size_t index);
-/* Feeds that the method takes, as FM_FEED_* bits; where FRAGMARK_TEST_LOCKS is set, none for methods
- * without a pass that takes locks. */
+/* Feeds that the method takes, as FM_FEED_* bits; where FRAGMARK_TEST_LOCKS is set, none for
+ * methods without a pass that takes locks. */
 uint32_t kit_feeds(const fm_method_desc *method);
 
 /* Whether the method is installed; what is not is printed as skipped. */
