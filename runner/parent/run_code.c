@@ -97,11 +97,6 @@ static fm_status hear(void *context, fm_journal_event event, const char *case_id
     return status;
 }
 
-static uint64_t known_driver(const run_state *run, const char *device)
-{
-    return (uint64_t)json_integer_value(json_object_get(run->drivers, device));
-}
-
 static void note_driver(run_state *run, const char *device, uint64_t driver)
 {
     if (driver != 0)
@@ -131,7 +126,7 @@ static fm_status look_at_driver(run_state *run, size_t case_index, fm_error *err
     char name[48];
     fm_launch_outcome outcome;
     const fm_case *planned = &run->plan->cases[case_index];
-    if (known_driver(run, planned->device) != 0 || run->stop_signal != 0)
+    if (run_known_driver(run, planned->device) != 0 || run->stop_signal != 0)
         return FM_OK;
     fm_request request = run_request_for(run, planned, run->truths.of_case[case_index], "");
     request.is_device_job = true;
@@ -149,19 +144,6 @@ static fm_status look_at_driver(run_state *run, size_t case_index, fm_error *err
     return status;
 }
 
-static fm_code_places places_of(const run_state *run, size_t case_index)
-{
-    const fm_case *planned = &run->plan->cases[case_index];
-    const char *floor = run->truths.jobs[run->truths.of_case[case_index]].floor;
-    return (fm_code_places){
-        .plugins = { [FM_CODE_OF_METHOD] = run_plugin_path(run, planned),
-                     [FM_CODE_OF_FLOOR] = floor != NULL ? floor : "" },
-        .common = run->plugins->common_folder,
-        .program = run->program,
-        .driver = known_driver(run, planned->device),
-    };
-}
-
 /* What of the row's code is another one now. */
 static fm_status compare_row(uint32_t *changes, fm_text_list *files, run_state *run,
                              size_t case_index, const fm_code *then, fm_error *err)
@@ -170,7 +152,7 @@ static fm_status compare_row(uint32_t *changes, fm_text_list *files, run_state *
     fm_code now = { 0 };
     if (code_has_driver(then))
         status = look_at_driver(run, case_index, err);
-    const fm_code_places places = places_of(run, case_index);
+    const fm_code_places places = run_code_places(run, case_index);
     code_look_again(&now, then, &places);
     *changes = code_changes(files, then, &now);
     if (status == FM_OK && now.failed)
@@ -366,22 +348,6 @@ fm_status run_check_codes(run_state *run, fm_error *err)
     free(list.methods);
     free(list.of_case);
     return status;
-}
-
-void run_guess_code(const run_state *run, size_t case_index, json_t *answer)
-{
-    const fm_plugin_entry *entry =
-        plugin_list_find(run->plugins, run->plan->cases[case_index].method);
-    const fm_code_places places = places_of(run, case_index);
-    const char *shaders[FM_MAX_PASSES + 1] = { NULL };
-    size_t count = 0;
-    fm_code code = { 0 };
-    for (size_t i = 0; entry != NULL && entry->plugin != NULL && i < FM_MAX_PASSES; i++)
-        if (entry->plugin->method->passes[i].shader != NULL)
-            shaders[count++] = entry->plugin->method->passes[i].shader;
-    code_guess(&code, &places, shaders);
-    answer_set_code(answer, &code);
-    code_free(&code);
 }
 
 fm_status run_fit_code(run_state *run, size_t case_index, json_t *answer, fm_error *err)

@@ -9,6 +9,7 @@
 #ifndef FM_RUN_INTERNAL_H
 #define FM_RUN_INTERNAL_H
 
+#include "code/code_now.h"
 #include "launch.h"
 #include "progress.h"
 #include "results/journal.h"
@@ -62,6 +63,12 @@ fm_request run_request_for(const run_state *run, const fm_case *planned, size_t 
                            const char *truth);
 /* How many frames a launch may speak of: those that are timed, or those of its sequence. */
 uint32_t run_frames(const run_state *run, const fm_settings *settings);
+/* The hash of a device's driver, of those that were opened; 0: not known. */
+uint64_t run_known_driver(const run_state *run, const char *device);
+/* Where the code of a case is now. */
+fm_code_places run_code_places(const run_state *run, size_t case_index);
+/* Puts into the answer of a worker that died what it may have read. */
+void run_guess_code(const run_state *run, size_t case_index, json_t *answer);
 
 /* run_attempt.c */
 #define RUN_NO_CASE SIZE_MAX
@@ -87,8 +94,6 @@ fm_status run_read_codes(run_state *run, fm_error *err);
 /* Compares that with what is here now: refuses with is_other_code, or with is_fresh writes into the
  * journal that they are to be forgotten. */
 fm_status run_check_codes(run_state *run, fm_error *err);
-/* Puts into the answer of a worker that died what it may have read. */
-void run_guess_code(const run_state *run, size_t case_index, json_t *answer);
 /* Puts into the answer what it may have read, if it says nothing, and compares it with what the row
  * was measured by. FM_INVALID: is_other_code. */
 fm_status run_fit_code(run_state *run, size_t case_index, json_t *answer, fm_error *err);

@@ -1,5 +1,7 @@
 /* What workers are asked for a case, and how cases are found. */
+#include "code/code_json.h"
 #include "run_internal.h"
+#include "worker/protocol.h"
 
 fm_status run_find_case(size_t *case_index, const run_state *run, const char *id, uint32_t launch,
                         fm_error *err)
@@ -38,4 +40,38 @@ fm_request run_request_for(const run_state *run, const fm_case *planned, size_t 
                          .image = "",
                          .validation = run->desc->validation,
                          .no_timers = run->desc->no_timers };
+}
+
+uint64_t run_known_driver(const run_state *run, const char *device)
+{
+    return (uint64_t)json_integer_value(json_object_get(run->drivers, device));
+}
+
+fm_code_places run_code_places(const run_state *run, size_t case_index)
+{
+    const fm_case *planned = &run->plan->cases[case_index];
+    const char *floor = run->truths.jobs[run->truths.of_case[case_index]].floor;
+    return (fm_code_places){
+        .plugins = { [FM_CODE_OF_METHOD] = run_plugin_path(run, planned),
+                     [FM_CODE_OF_FLOOR] = floor != NULL ? floor : "" },
+        .common = run->plugins->common_folder,
+        .program = run->program,
+        .driver = run_known_driver(run, planned->device),
+    };
+}
+
+void run_guess_code(const run_state *run, size_t case_index, json_t *answer)
+{
+    const fm_plugin_entry *entry =
+        plugin_list_find(run->plugins, run->plan->cases[case_index].method);
+    const fm_code_places places = run_code_places(run, case_index);
+    const char *shaders[FM_MAX_PASSES + 1] = { NULL };
+    size_t count = 0;
+    fm_code code = { 0 };
+    for (size_t i = 0; entry != NULL && entry->plugin != NULL && i < FM_MAX_PASSES; i++)
+        if (entry->plugin->method->passes[i].shader != NULL)
+            shaders[count++] = entry->plugin->method->passes[i].shader;
+    code_guess(&code, &places, shaders);
+    answer_set_code(answer, &code);
+    code_free(&code);
 }
