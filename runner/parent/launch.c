@@ -31,7 +31,7 @@ static void log_tail(char tail[LOG_TAIL_BYTES + 1], const char *words)
     size_t count = strlen(words);
     if (count > LOG_TAIL_BYTES)
         words += count - LOG_TAIL_BYTES;
-    snprintf(tail, LOG_TAIL_BYTES + 1, "%s", words);
+    snprintf(tail, LOG_TAIL_BYTES + 1, "%.*s", LOG_TAIL_BYTES, words);
     count = strlen(tail);
     while (count > 0 && tail[count - 1] == '\n')
         tail[--count] = '\0';
@@ -150,7 +150,7 @@ static json_t *read_answer(char *why, size_t room_bytes, const fm_launch_desc *d
     fm_error below = { 0 };
     json_error_t fault = { 0 };
     if (text_read_file(&bytes, &count, desc->result, result_max_bytes, &below) != FM_OK) {
-        snprintf(why, room_bytes, "%s", below.message);
+        snprintf(why, room_bytes, "%.599s", below.message);
         return NULL;
     }
     json_t *result = json_loadb(bytes, count, JSON_REJECT_DUPLICATES, &fault);
@@ -161,7 +161,7 @@ static json_t *read_answer(char *why, size_t room_bytes, const fm_launch_desc *d
     if (checked == FM_OK)
         return result;
     json_decref(result);
-    snprintf(why, room_bytes, "%s", below.message);
+    snprintf(why, room_bytes, "%.599s", below.message);
     return NULL;
 }
 

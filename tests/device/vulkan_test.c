@@ -88,7 +88,7 @@ static void vulkan_without_a_driver_says_how_to_get_one(void **state)
     assert_int_equal(listed, FM_OK);
     assert_int_equal(count, 0);
     assert_int_equal(opened, FM_IO);
-    assert_non_null(strstr(err.message, "apt-get install mesa-vulkan-drivers"));
+    assert_non_null(strstr(err.message, "VK_DRIVER_FILES names: /nonexistent.json"));
     assert_null(device);
 }
 
