@@ -87,7 +87,10 @@ static void add_culled(json_t *metrics, const fm_answer_desc *desc)
 {
     const fm_measurement *m = desc->measurement;
     const double all = (double)desc->truth->fragment_count;
-    const double taken = (double)m->arrived - (double)m->culled;
+    /* Only the raster feed counts what arrives: the others hand over all that there is. */
+    const uint64_t arrived =
+        desc->stage->feed == FM_FEED_RASTER ? m->arrived : desc->truth->fragment_count;
+    const double taken = (double)arrived - (double)m->culled;
     const double kept =
         (double)truth_kept(desc->truth, measure_places(desc->method, desc->settings->k));
     if (culling_is_applied(desc->method))
@@ -95,7 +98,7 @@ static void add_culled(json_t *metrics, const fm_answer_desc *desc)
     if ((desc->stage->feed & FM_FEEDS_FRAGMENTS) ==
         0) /* no fragments arrive, so none are counted */
         return;
-    answer_set_count(metrics, FM_METRIC_FRAGMENTS_ARRIVED, m->arrived);
+    answer_set_count(metrics, FM_METRIC_FRAGMENTS_ARRIVED, arrived);
     answer_set_count(metrics, FM_METRIC_FRAGMENTS_CULLED, m->culled);
     answer_set_count(metrics, FM_METRIC_LOCKS_TAKEN, m->locked);
     if (desc->method->keeps != FM_KEEPS_K_NEAREST)
