@@ -72,7 +72,9 @@ static fm_status note_death(run_state *run, const run_attempt *attempt, char **d
     *death = strdup(answer_message(result));
     if (*death == NULL)
         return fm_fail(err, FM_NO_MEMORY, "no memory for how a worker died");
-    progress_tell(&run->progress, attempt->current, "its worker died, and is tried again");
+    char why[512];
+    snprintf(why, sizeof why, "is tried again: %.480s", *death);
+    progress_tell(&run->progress, attempt->current, why);
     if (attempt->case_index == RUN_NO_CASE)
         return FM_OK;
     json_t *told = answer_make(answer_status(result), *death);
