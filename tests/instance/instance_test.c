@@ -24,10 +24,9 @@ static const char wide_file[] =
     "void wide(uvec2 pixel)\n{\n    uint64_t sum = uint64_t(pixel.x) + 1ul;\n"
     "    if (pixel == uvec2(0u))\n        result[0] = uint(sum >> 1);\n}\n";
 
-static const char more_file[] =
-    "void more(uvec2 pixel)\n{\n    if (pixel == uvec2(0u))\n"
-    "        result[0] = result[0] == 1u || result[0] == 6u ? 6u : 1u;\n"
-    "}\n";
+static const char more_file[] = "void more(uvec2 pixel)\n{\n    if (pixel == uvec2(0u))\n"
+                                "        result[0] = result[0] == 0u ? 1u : 6u;\n"
+                                "}\n";
 static const char number_file[] =
     "void number(uvec2 pixel)\n{\n    uint i = fm_pixel_index(pixel);\n"
     "    if (i < fm_length_many)\n        many[i] = i;\n}\n";

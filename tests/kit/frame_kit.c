@@ -40,6 +40,14 @@ static fm_status look(frames_seen *seen, fm_device *device, fm_instance *instanc
     return status;
 }
 
+/* Memory of a new buffer holds anything, what an earlier one left there as well. */
+static fm_status start_at_zero(fm_device *device, fm_instance *instance, fm_error *err)
+{
+    const uint32_t zero = 0;
+    return device->ops->buffer_write(device, instance_slot(instance, "result")->buffer, 0, &zero,
+                                     sizeof zero, err);
+}
+
 static fm_status run(frames_seen *seen, const kit_scene *scene, const kit_frames *frames,
                      const fm_shader_folders *folders, fm_error *err)
 {
@@ -54,6 +62,8 @@ static fm_status run(frames_seen *seen, const kit_scene *scene, const kit_frames
         stage_create(&desc.stage, device, scene->scene, scene->truth, FM_FEED_RASTER, err);
     if (status == FM_OK)
         status = instance_create(&instance, &desc, err);
+    if (status == FM_OK)
+        status = start_at_zero(device, instance, err);
     for (int i = 0; i < (frames->frames > 0 ? frames->frames : 1) && status == FM_OK; i++)
         status = instance_frame(&result, instance, NULL, err);
     seen->redos = result.redos;

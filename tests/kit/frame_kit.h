@@ -1,6 +1,6 @@
 /* Frames of a method that a test writes by hand: a descriptor and the text of each GLSL file. It
- * has a buffer `result`, whose first word the test looks at. Tests that use it are registered with
- * fm_add_scene_test, and name frame_kit.c beside. */
+ * has a buffer `result`, whose first word the test looks at; it is zero before the first frame.
+ * Tests that use it are registered with fm_add_scene_test, and name frame_kit.c beside. */
 #ifndef FM_TESTS_FRAME_KIT_H
 #define FM_TESTS_FRAME_KIT_H
 
