@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <unistd.h>
 
+#include "image/image_error.h"
+
 fm_status picture_path(char path[FM_PATH_MAX_BYTES], const char *directory, const char *id,
                        const char *ending, fm_error *err)
 {
@@ -35,12 +37,12 @@ fm_status picture_compare(double *max_difference, const char *directory, const c
                           const char *other, fm_error *err)
 {
     fm_image *left = NULL, *right = NULL;
-    fm_image_error apart = { 0 };
+    fm_difference apart = { 0 };
     fm_status status = read_kept(&left, directory, id, err);
     if (status == FM_OK)
         status = read_kept(&right, directory, other, err);
     if (status == FM_OK)
-        status = image_compare(&apart, left, right, err);
+        status = image_difference(&apart, left, right, err);
     *max_difference = status == FM_OK ? apart.max_abs : NAN;
     image_destroy(left);
     image_destroy(right);

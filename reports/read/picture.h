@@ -3,7 +3,7 @@
 #ifndef FM_READ_PICTURE_H
 #define FM_READ_PICTURE_H
 
-#include "base/image.h"
+#include "image/image.h"
 #include "base/path.h"
 
 /* path = DIRECTORY/images/ID ENDING. id: of a case, or another name of at most 64 bytes; ending:

@@ -7,7 +7,7 @@
 #define FM_TRUTH_H
 
 #include "base/error.h"
-#include "base/image.h"
+#include "image/image.h"
 #include "scene/scene.h"
 
 typedef struct fm_truth {

@@ -1,6 +1,7 @@
 #include "answer.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -109,6 +110,55 @@ static void add_culled(json_t *metrics, const fm_answer_desc *desc)
         answer_set_number(metrics, FM_METRIC_TAKEN_PER_KEPT, taken / kept);
 }
 
+typedef struct error_row {
+    fm_metric metric;
+    fm_region region;
+    size_t offset; /* of the number in fm_region_error */
+} error_row;
+
+#define VIEWPORT(id, member)                                                                       \
+    {                                                                                              \
+        FM_METRIC_##id, FM_REGION_VIEWPORT, offsetof(fm_region_error, member)                      \
+    }
+#define COVERED(id, member)                                                                        \
+    {                                                                                              \
+        FM_METRIC_COVERED_##id, FM_REGION_COVERED, offsetof(fm_region_error, member)               \
+    }
+/* clang-format off */
+static const error_row own_rows[] = {
+    VIEWPORT(RMSE, difference.rmse),       COVERED(RMSE, difference.rmse),
+    VIEWPORT(PSNR_DB, difference.psnr_db), COVERED(PSNR_DB, difference.psnr_db),
+    VIEWPORT(MAX_ABS, difference.max_abs), COVERED(MAX_ABS, difference.max_abs),
+    VIEWPORT(SSIM, ssim),                  COVERED(SSIM, ssim),
+    VIEWPORT(FLIP, flip.mean),             COVERED(FLIP, flip.mean),
+    VIEWPORT(FLIP_MEDIAN, flip.weighted_median), COVERED(FLIP_MEDIAN, flip.weighted_median),
+    VIEWPORT(FLIP_P95, flip.p95),          COVERED(FLIP_P95, flip.p95),
+    VIEWPORT(FLIP_MAX, flip.max),          COVERED(FLIP_MAX, flip.max),
+};
+static const error_row total_rows[] = {
+    VIEWPORT(TOTAL_RMSE, difference.rmse), VIEWPORT(TOTAL_MAX_ABS, difference.max_abs),
+    VIEWPORT(TOTAL_SSIM, ssim),            VIEWPORT(TOTAL_FLIP, flip.mean),
+};
+/* clang-format on */
+
+/* What does not apply, as ssim of an image that is smaller than a window, stays empty. */
+static void add_rows(json_t *metrics, const fm_image_error *error, const error_row *rows,
+                     size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        const char *region = (const char *)&error->region[rows[i].region];
+        const double value = *(const double *)(const void *)(region + rows[i].offset);
+        if (!isnan(value))
+            answer_set_number(metrics, rows[i].metric, value);
+    }
+}
+
+static void add_errors(json_t *metrics, const fm_image_error *own, const fm_image_error *total)
+{
+    add_rows(metrics, own, own_rows, sizeof own_rows / sizeof own_rows[0]);
+    add_rows(metrics, total, total_rows, sizeof total_rows / sizeof total_rows[0]);
+}
+
 static void add_checked(json_t *metrics, const fm_measurement *m, const fm_truth *truth)
 {
     answer_set_count(metrics, FM_METRIC_FRAGMENTS_STORED, m->check.captured);
@@ -121,12 +171,8 @@ static void add_checked(json_t *metrics, const fm_measurement *m, const fm_truth
     answer_set_count(metrics, FM_METRIC_TRUTH_DIGEST, truth_digest(truth));
     answer_set_count(metrics, FM_METRIC_TIED_PIXELS, m->tied_pixels);
     answer_set_number(metrics, FM_METRIC_SELF_MAX_ABS, m->self_max_abs);
-    answer_set_number(metrics, FM_METRIC_RMSE, m->error.rmse);
-    answer_set_number(metrics, FM_METRIC_PSNR_DB, m->error.psnr_db);
-    answer_set_number(metrics, FM_METRIC_MAX_ABS, m->error.max_abs);
-    answer_set_number(metrics, FM_METRIC_SSIM, m->error.ssim);
+    add_errors(metrics, &m->error, &m->total_error);
     answer_set_number(metrics, FM_METRIC_TRUNCATION_RMSE, m->truncation_rmse);
-    answer_set_number(metrics, FM_METRIC_TOTAL_RMSE, m->total_rmse);
 }
 
 static void add_metrics(json_t *answer, const fm_answer_desc *desc)

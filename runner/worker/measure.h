@@ -3,8 +3,8 @@
 #ifndef FM_MEASURE_H
 #define FM_MEASURE_H
 
-#include "base/image.h"
 #include "host_load.h"
+#include "image/image_error.h"
 #include "instance/instance.h"
 #include "truth/check.h"
 #include "truth/truth.h"
@@ -50,11 +50,11 @@ typedef struct fm_measurement {
     /* Timed image against its own fragments composited in double; where a tie leaves their order
      * open, against what that allows (truth/reference.h), as in all that follows. */
     double self_max_abs;
-    uint64_t tied_pixels;   /* where such ties are among the wanted fragments */
-    fm_image_error error;   /* against the picture of the fragments that it was to hand over */
-    double truncation_rmse; /* of that picture against the picture of all fragments */
-    double total_rmse;      /* of the image against the picture of all fragments */
-    fm_image *truth_image;  /* the nearest that truth allows; owned */
+    uint64_t tied_pixels;       /* where such ties are among the wanted fragments */
+    fm_image_error error;       /* against the picture of the fragments that it was to hand over */
+    double truncation_rmse;     /* of that picture against the picture of all fragments */
+    fm_image_error total_error; /* of the image against the picture of all fragments */
+    fm_image *truth_image;      /* the nearest that truth allows; owned */
 } fm_measurement;
 
 typedef struct fm_measure_desc {

@@ -166,21 +166,47 @@ fm_status measure_check_fragments(fm_measurement *measurement, const fm_measure_
     return status;
 }
 
+/* Which pixels have a fragment. */
+static bool *covered_pixels(const fm_truth *truth)
+{
+    const uint64_t pixels = (uint64_t)truth->width_px * truth->height_px;
+    bool *covered = malloc(pixels * sizeof *covered);
+    for (uint64_t i = 0; covered != NULL && i < pixels; i++)
+        covered[i] = truth->offsets[i + 1] > truth->offsets[i];
+    return covered;
+}
+
+/* The picture of the wanted fragments, and that of all: of most exact methods they are one. */
+static fm_status compare_both(fm_measurement *measurement, const fm_reference *reference,
+                              const bool *covered, fm_error *err)
+{
+    image_compare_desc compared = { .image = measurement->image,
+                                    .reference = reference->wanted,
+                                    .covered = covered };
+    fm_status status = image_compare(&measurement->error, &compared, err);
+    const size_t pixels = (size_t)reference->all->width_px * reference->all->height_px;
+    measurement->total_error = measurement->error;
+    compared.reference = reference->all;
+    if (status == FM_OK && memcmp(reference->all->rgba, reference->wanted->rgba, pixels * 16) != 0)
+        status = image_compare(&measurement->total_error, &compared, err);
+    return status;
+}
+
 fm_status measure_check_images(fm_measurement *measurement, const fm_measure_desc *desc,
                                fm_error *err)
 {
-    fm_reference reference;
-    fm_image_error total = { .rmse = NAN };
-    fm_status status = reference_create(&reference, desc->truth, measure_k(measurement, desc),
-                                        measurement->image, err);
+    fm_reference reference = { 0 };
+    bool *covered = covered_pixels(desc->truth);
+    fm_status status = covered != NULL ? FM_OK : fm_fail(err, FM_NO_MEMORY, "covered pixels");
     if (status == FM_OK)
-        status = image_compare(&measurement->error, measurement->image, reference.wanted, err);
+        status = reference_create(&reference, desc->truth, measure_k(measurement, desc),
+                                  measurement->image, err);
     if (status == FM_OK)
-        status = image_compare(&total, measurement->image, reference.all, err);
+        status = compare_both(measurement, &reference, covered, err);
     measurement->truncation_rmse = reference.truncation_rmse;
-    measurement->total_rmse = total.rmse;
     measurement->truth_image = reference.wanted;
     reference.wanted = NULL;
     reference_free(&reference);
+    free(covered);
     return status;
 }

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "answer.h"
-#include "image_files.h"
+#include "image/image_files.h"
 #include "technique_internal.h"
 
 /* A frame buffer is opaque: what it shows, as linear floats. */
@@ -39,10 +39,13 @@ static fm_status draw_baseline(technique_run *run, const fm_frame *frame, uint32
 
 static void add_error(technique_run *run, const fm_image_error *error)
 {
-    fm_image_error *sum = &run->error;
-    sum->rmse = sqrt(sum->rmse * sum->rmse + error->rmse * error->rmse);
-    sum->max_abs = fmax(sum->max_abs, error->max_abs);
-    sum->ssim += error->ssim;
+    const fm_region_error *all = &error->region[FM_REGION_VIEWPORT];
+    technique_errors *sum = &run->errors;
+    sum->squares += all->difference.rmse * all->difference.rmse;
+    sum->max_abs = fmax(sum->max_abs, all->difference.max_abs);
+    sum->ssim += all->ssim;
+    sum->flip += all->flip.mean;
+    sum->flip_max = fmax(sum->flip_max, all->flip.max);
 }
 
 fm_status technique_compare_frame(technique_run *run, const fm_frame *frame, uint32_t index,
@@ -57,7 +60,8 @@ fm_status technique_compare_frame(technique_run *run, const fm_frame *frame, uin
     if (status == FM_OK)
         status = float_image(&right, run, tbr_image(run->baseline), err);
     if (status == FM_OK)
-        status = image_compare(&error, ours, right, err);
+        status =
+            image_compare(&error, &(image_compare_desc){ .image = ours, .reference = right }, err);
     if (status == FM_OK && is_first)
         status = image_files_write(run->job->image, ours, right, err);
     if (status == FM_OK)
@@ -67,16 +71,21 @@ fm_status technique_compare_frame(technique_run *run, const fm_frame *frame, uin
     return status;
 }
 
-/* Frames that are right have no error and an ssim of 1. */
+/* Frames that are right have no error and an ssim of 1; frames smaller than its window have none.
+ */
 void technique_set_errors(technique_run *run)
 {
     const double frames = run->outcome.frames;
     const double right = frames - run->outcome.wrong_frames;
-    const double rmse = run->error.rmse / sqrt(frames);
+    const technique_errors *sum = &run->errors;
+    const double rmse = sqrt(sum->squares / frames), ssim = (sum->ssim + right) / frames;
     answer_set_number(run->metrics, FM_METRIC_RMSE, rmse);
     answer_set_number(run->metrics, FM_METRIC_PSNR_DB, rmse > 0 ? -20 * log10(rmse) : INFINITY);
-    answer_set_number(run->metrics, FM_METRIC_MAX_ABS, run->error.max_abs);
-    answer_set_number(run->metrics, FM_METRIC_SSIM, (run->error.ssim + right) / frames);
+    answer_set_number(run->metrics, FM_METRIC_MAX_ABS, sum->max_abs);
+    if (!isnan(ssim))
+        answer_set_number(run->metrics, FM_METRIC_SSIM, ssim);
+    answer_set_number(run->metrics, FM_METRIC_FLIP, sum->flip / frames);
+    answer_set_number(run->metrics, FM_METRIC_FLIP_MAX, sum->flip_max);
     answer_set_count(run->metrics, FM_METRIC_WRONG_TILES, run->outcome.wrong_tiles);
     answer_set_count(run->metrics, FM_METRIC_WRONG_FRAMES, run->outcome.wrong_frames);
 }

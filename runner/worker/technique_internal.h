@@ -6,7 +6,7 @@
 #ifndef FM_TECHNIQUE_INTERNAL_H
 #define FM_TECHNIQUE_INTERNAL_H
 
-#include "base/image.h"
+#include "image/image.h"
 #include "simulator/models/cycles.h"
 #include "simulator/models/energy.h"
 #include "simulator/tbr.h"
@@ -25,6 +25,11 @@ typedef struct sequence_truth {
 } sequence_truth;
 
 /* All of a run. */
+/* Sums over the wrong frames; squares: of rmse. */
+typedef struct technique_errors {
+    double squares, max_abs, ssim, flip, flip_max;
+} technique_errors;
+
 typedef struct technique_run {
     const fm_technique_job *job;
     json_t *samples, *metrics;
@@ -38,10 +43,9 @@ typedef struct technique_run {
     cycles_frame cycle_sum;
     double spilled_sum; /* weighted by the parameter buffer's bytes */
     fm_technique_outcome outcome;
-    tbr *baseline;        /* once a frame was wrong, to draw it */
-    fm_image_error error; /* of the wrong frames: root of the sum of their squared rmse, the largest
-                             max_abs, the sum of ssim */
-    uint64_t image_hash;  /* of the frames so far */
+    tbr *baseline; /* once a frame was wrong, to draw it */
+    technique_errors errors;
+    uint64_t image_hash; /* of the frames so far */
     double seconds;
 } technique_run;
 

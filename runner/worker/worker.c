@@ -9,7 +9,7 @@
 #include "answer.h"
 #include "capture/truth_capture.h"
 #include "generators/generate.h"
-#include "image_files.h"
+#include "image/image_files.h"
 #include "measure.h"
 #include "model/feeds.h"
 #include "plugin/culling_apply.h"

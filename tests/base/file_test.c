@@ -14,9 +14,9 @@
 #include <cmocka.h>
 
 #include "base/file.h"
-#include "base/image.h"
 #include "base/text.h"
 #include "base/yaml_tree.h"
+#include "image/image.h"
 
 enum { WAIT_S = 10 }; /* an open that waits for a pipe's other end is killed */
 

@@ -3,16 +3,16 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "base/image.h"
+#include "image/image_error.h"
 
 int main(int argc, char **argv)
 {
     fm_image *a = NULL, *b = NULL;
-    fm_image_error apart;
+    fm_difference apart;
     fm_error err = { .message = "arguments: A.rgba32f B.rgba32f TOLERANCE" };
     int code = 2;
     if (argc != 4 || image_read(&a, argv[1], &err) != FM_OK ||
-        image_read(&b, argv[2], &err) != FM_OK || image_compare(&apart, a, b, &err) != FM_OK) {
+        image_read(&b, argv[2], &err) != FM_OK || image_difference(&apart, a, b, &err) != FM_OK) {
         fprintf(stderr, "compare_images: %s\n", err.message);
         goto out;
     }

@@ -1,4 +1,4 @@
-#include "base/image.h"
+#include "image/image.h"
 #include "fuzz.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)

@@ -121,9 +121,9 @@ static void expect_exact(const fm_measurement *m, const char *where, const char 
                  (unsigned)m->lost, (unsigned)check->wrong_pixels);
     if (!(m->self_max_abs <= image_tolerance))
         fail_msg("%s: %s: the image is %.3g from its fragments", where, scene, m->self_max_abs);
-    if (!(m->error.max_abs <= image_tolerance))
+    if (!(m->error.region[FM_REGION_VIEWPORT].difference.max_abs <= image_tolerance))
         fail_msg("%s: %s: the image is %.3g from what truth allows", where, scene,
-                 m->error.max_abs);
+                 m->error.region[FM_REGION_VIEWPORT].difference.max_abs);
 }
 
 /* Which methods a scene meets, and on which feeds: compiling takes the time. */
@@ -221,7 +221,8 @@ static void check_depth_one(kit_scene *scene, const fm_method_desc *method, cons
             const int behind = method->keeps == FM_KEEPS_NEAREST ? 6 : 0;
             assert_int_equal(m.check.missing, HAND_PIXELS - behind);
             m.check.missing = 0;
-            m.error.max_abs = 0; /* the picture lacks them, too */
+            m.error.region[FM_REGION_VIEWPORT].difference.max_abs =
+                0; /* the picture lacks them, too */
         }
         expect_exact(&m, where, depth_one.name);
     }

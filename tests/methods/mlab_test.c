@@ -25,7 +25,8 @@ static outcome measured(void **state, const char *texts, uint32_t feed, const ch
     assert_true(kit_measure(&m, &scene, &(kit_way){ "mlab", feed, k }));
     assert_int_equal(m.check.misordered, 0);
     assert_int_equal(m.bytes_allocated, m.bytes_predicted);
-    const outcome seen = { m.check.missing, m.check.extra, m.lost, m.error.max_abs };
+    const outcome seen = { m.check.missing, m.check.extra, m.lost,
+                           m.error.region[FM_REGION_VIEWPORT].difference.max_abs };
     measurement_free(&m);
     kit_scene_close(&scene);
     kit_close(&kit);

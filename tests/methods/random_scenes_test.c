@@ -95,8 +95,10 @@ static void measure_one(char wrong[600], kit_scene *scene, const kit_way *way)
                  (unsigned)m.lost, (unsigned)check->wrong_pixels);
     else if (status == FM_OK && !(m.self_max_abs <= measure_image_tolerance(scene->truth->n)))
         snprintf(wrong, 600, "the image is %.3g from its fragments", m.self_max_abs);
-    else if (status == FM_OK && !(m.error.max_abs <= measure_image_tolerance(scene->truth->n)))
-        snprintf(wrong, 600, "the image is %.3g from what truth allows", m.error.max_abs);
+    else if (status == FM_OK && !(m.error.region[FM_REGION_VIEWPORT].difference.max_abs <=
+                                  measure_image_tolerance(scene->truth->n)))
+        snprintf(wrong, 600, "the image is %.3g from what truth allows",
+                 m.error.region[FM_REGION_VIEWPORT].difference.max_abs);
     else if (status == FM_OK && m.bytes_allocated != m.bytes_predicted)
         snprintf(wrong, 600, "%llu bytes allocated, %llu predicted",
                  (unsigned long long)m.bytes_allocated, (unsigned long long)m.bytes_predicted);

@@ -52,7 +52,7 @@ static double measured_rmse(void **state, const char *texts)
     expect_equation(m.image, scene.truth);
     assert_int_equal(m.check.captured + m.check.extra + m.lost, 0);
     assert_int_equal(m.check.missing, scene.truth->fragment_count);
-    const double rmse = m.error.rmse;
+    const double rmse = m.error.region[FM_REGION_VIEWPORT].difference.rmse;
     print_message("%s: rmse %.3g\n", texts, rmse);
     measurement_free(&m);
     kit_scene_close(&scene);

@@ -14,7 +14,7 @@
 
 #include <cmocka.h>
 
-#include "base/image.h"
+#include "image/image.h"
 #include "base/text.h"
 #include "claims/verdicts.h"
 #include "read/paper_figure.h"

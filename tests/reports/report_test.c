@@ -14,7 +14,7 @@
 
 #include <cmocka.h>
 
-#include "base/image.h"
+#include "image/image.h"
 #include "base/text.h"
 #include "draw/axis.h"
 #include "draw/chart.h"

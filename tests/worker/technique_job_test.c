@@ -11,8 +11,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/image.h"
 #include "fragmark/technique.h"
+#include "image/image_error.h"
 #include "model/metrics.h"
 #include "scene/frame_builder.h"
 #include "scene/frame_stream.h"
@@ -165,7 +165,7 @@ static void one_wrong_tile_within_a_sequence_shows(void **state)
     test_sequence made = { .frames = FRAMES, .extra = WRONG_FRAME };
     fm_technique_outcome outcome;
     fm_image *image = NULL, *truth = NULL;
-    fm_image_error apart;
+    fm_image_error compared;
     fm_error err = { 0 };
     char path[96];
     sequence_open(&made);
@@ -181,14 +181,17 @@ static void one_wrong_tile_within_a_sequence_shows(void **state)
     snprintf(path, sizeof path, "%s.truth.rgba32f", made.stream);
     assert_int_equal(image_read(&image, made.image, &err), FM_OK);
     assert_int_equal(image_read(&truth, path, &err), FM_OK);
-    assert_int_equal(image_compare(&apart, image, truth, &err), FM_OK);
-    assert_true(apart.rmse > 0.01);
-    const double rmse = apart.rmse / sqrt(FRAMES);
+    const image_compare_desc pair = { .image = image, .reference = truth };
+    assert_int_equal(image_compare(&compared, &pair, &err), FM_OK);
+    const fm_region_error apart = compared.region[FM_REGION_VIEWPORT];
+    assert_true(apart.difference.rmse > 0.01 && apart.flip.mean > 0.01);
+    const double rmse = apart.difference.rmse / sqrt(FRAMES);
     assert_true(fabs(metric(answer, FM_METRIC_RMSE) - rmse) < 1e-12);
     assert_true(fabs(metric(answer, FM_METRIC_PSNR_DB) + 20.0 * log10(rmse)) < 1e-9);
-    assert_true(fabs(metric(answer, FM_METRIC_MAX_ABS) - apart.max_abs) < 1e-12);
+    assert_true(fabs(metric(answer, FM_METRIC_MAX_ABS) - apart.difference.max_abs) < 1e-12);
     const double ssim = 1.0 - (1.0 - apart.ssim) / FRAMES;
     assert_true(fabs(metric(answer, FM_METRIC_SSIM) - ssim) < 1e-12);
+    assert_true(fabs(metric(answer, FM_METRIC_FLIP) - apart.flip.mean / FRAMES) < 1e-12);
     image_destroy(image);
     image_destroy(truth);
     json_decref(answer);

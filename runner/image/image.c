@@ -9,8 +9,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "file.h"
-#include "text.h"
+#include "base/file.h"
+#include "base/text.h"
 
 static const char magic[] = "fragmark rgba32f ";
 enum { HEADER_MAX_BYTES = 64, BYTES_PER_PIXEL = 16 };
@@ -52,38 +52,36 @@ void image_destroy(fm_image *image)
     free(image);
 }
 
-/* Fills all but ssim; false: a channel is not finite. */
-static bool compare_channels(fm_image_error *error, const fm_image *image,
-                             const fm_image *reference)
+fm_status image_check_sizes(const fm_image *image, const fm_image *reference, fm_error *err)
 {
-    const uint64_t channels = pixel_count(image) * 4;
-    double sum = 0.0, largest = 0.0;
-    for (uint64_t i = 0; i < channels; i++) {
-        if (!isfinite(image->rgba[i]) || !isfinite(reference->rgba[i]))
-            return false;
-        const double difference = fabs((double)image->rgba[i] - (double)reference->rgba[i]);
-        sum += difference * difference;
-        largest = fmax(largest, difference);
-    }
-    error->rmse = sqrt(sum / (double)channels);
-    error->psnr_db = error->rmse > 0.0 ? -20.0 * log10(error->rmse) : INFINITY;
-    error->max_abs = largest;
-    return true;
+    if (image->width_px == reference->width_px && image->height_px == reference->height_px)
+        return FM_OK;
+    return fm_fail(err, FM_INVALID,
+                   "images differ in size: %" PRIu32 " x %" PRIu32 " and %" PRIu32 " x %" PRIu32
+                   " px",
+                   image->width_px, image->height_px, reference->width_px, reference->height_px);
 }
 
-fm_status image_compare(fm_image_error *error, const fm_image *image, const fm_image *reference,
-                        fm_error *err)
+static fm_status check_finite(const fm_image *image, const char *which, fm_error *err)
 {
-    if (image->width_px != reference->width_px || image->height_px != reference->height_px)
-        return fm_fail(
-            err, FM_INVALID,
-            "images differ in size: %" PRIu32 " x %" PRIu32 " and %" PRIu32 " x %" PRIu32 " px",
-            image->width_px, image->height_px, reference->width_px, reference->height_px);
-    if (!compare_channels(error, image, reference)) {
-        *error = (fm_image_error){ INFINITY, -INFINITY, INFINITY, 0.0 };
-        return FM_OK;
-    }
-    return image_ssim(&error->ssim, image, reference, err);
+    static const char *const channel[] = { "red", "green", "blue", "alpha" };
+    const size_t channels = pixel_count(image) * 4;
+    for (size_t i = 0; i < channels; i++)
+        if (!isfinite(image->rgba[i]))
+            return fm_fail(err, FM_INVALID, "%s, column %zu, row %zu: %s is %g", which,
+                           i / 4 % image->width_px, i / 4 / image->width_px, channel[i % 4],
+                           (double)image->rgba[i]);
+    return FM_OK;
+}
+
+fm_status image_check_pair(const fm_image *image, const fm_image *reference, fm_error *err)
+{
+    fm_status status = image_check_sizes(image, reference, err);
+    if (status == FM_OK)
+        status = check_finite(image, "the image", err);
+    if (status == FM_OK)
+        status = check_finite(reference, "the reference", err);
+    return status;
 }
 
 fm_status image_write(const char *path, const fm_image *image, fm_error *err)

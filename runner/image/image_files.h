@@ -2,7 +2,7 @@
 #ifndef FM_IMAGE_FILES_H
 #define FM_IMAGE_FILES_H
 
-#include "base/image.h"
+#include "image.h"
 
 /* Writes the image to path, NAME.rgba32f, and its truth beside it, NAME.truth.rgba32f.
  * path    "": nothing is written
