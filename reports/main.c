@@ -7,6 +7,7 @@
 
 #include "base/data.h"
 #include "claims/verdicts.h"
+#include "error_command.h"
 #include "model/exit_code.h"
 #include "page/report.h"
 #include "results_folder.h"
@@ -249,7 +250,8 @@ int main(int argc, char **argv)
                "Examples:\n"
                "  fragmark-report out/kplus-05\n"
                "  fragmark-report out/mine --figure kplus-05\n"
-               "  fragmark-report out/mine --figure my-figure.yml\n\n"
+               "  fragmark-report out/mine --figure my-figure.yml\n"
+               "  fragmark-report error IMAGE REFERENCE   (its own --help tells more)\n\n"
                "Exit status: 0 done, 1 a claim that its figure declares required fails, 2 wrong "
                "use: a figure or reference that is named and not there, or a bad figure file, "
                "5 the report cannot be written, or was drawn of results that lack something, which "
@@ -259,6 +261,11 @@ int main(int argc, char **argv)
     };
     arguments given = { 0 };
     fm_error err = { 0 };
+    char title[] = "fragmark error";
+    if (argc > 1 && strcmp(argv[1], "error") == 0) {
+        argv[1] = title;
+        return error_main(argc - 1, argv + 1);
+    }
     argp_err_exit_status = FM_EXIT_USAGE;
     argp_parse(&argp, argc, argv, 0, NULL, &given);
     const int code = given.only_checks ? check(&given, &err) : make_report(&given, &err);

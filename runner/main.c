@@ -25,6 +25,7 @@ static const struct {
       "a scene for the simulated GPU from what an OpenGL program draws" },
     { "bundle", "fragmark bundle", cli_bundle,
       "a folder with all that measuring needs, for a machine without packages" },
+    { "error", "fragmark error", cli_error, "how far two image files are apart" },
     { "report", "fragmark report", cli_report, "charts and report.html again from the CSV" },
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };

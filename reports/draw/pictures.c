@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "image/colour.h"
 #include "image_file.h"
 #include "read/picture.h"
 
@@ -13,10 +14,7 @@ static uint8_t srgb_byte(double linear)
 {
     if (!(linear > 0.0))
         return 0;
-    if (linear >= 1.0)
-        return 255;
-    double coded = linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1 / 2.4) - 0.055;
-    return (uint8_t)lround(coded * 255.0);
+    return linear >= 1.0 ? 255 : (uint8_t)lround(linear_to_srgb(linear) * 255.0);
 }
 
 static size_t pixel_count(const fm_image *image)
@@ -133,6 +131,48 @@ static fm_status write_difference(fm_picture_set *set, const char *directory, co
 out:
     free(shares);
     image_destroy(difference);
+    return status;
+}
+
+static float map_share(float value, fm_map_scale scale)
+{
+    switch (scale) {
+    case FM_MAP_DECADES:
+        return heat_share((double)value);
+    case FM_MAP_SHARE:
+        break;
+    case FM_MAP_SIMILARITY:
+        return isnan(value) ? 0.0F : fminf(fmaxf(1.0F - value, 0.0F), 1.0F);
+    }
+    return fminf(fmaxf(value, 0.0F), 1.0F);
+}
+
+static fm_status map_path(char path[FM_PATH_MAX_BYTES], const char *prefix, const char *name,
+                          const char *ending, fm_error *err)
+{
+    const int length = snprintf(path, FM_PATH_MAX_BYTES, "%s.%s.%s", prefix, name, ending);
+    return length < FM_PATH_MAX_BYTES
+               ? FM_OK
+               : fm_fail(err, FM_INVALID, "%.64s...: too long a path", prefix);
+}
+
+fm_status pictures_write_map(const char *prefix, const char *name, const float *map,
+                             const fm_image *size, fm_map_scale scale, fm_error *err)
+{
+    char path[FM_PATH_MAX_BYTES];
+    fm_status status = map_path(path, prefix, name, "exr", err);
+    float *shares = malloc(pixel_count(size) * sizeof *shares);
+    if (shares == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "map of %zu pixels", pixel_count(size));
+    for (size_t i = 0; i < pixel_count(size); i++)
+        shares[i] = map_share(map[i], scale);
+    if (status == FM_OK)
+        status = image_file_write_grey32f(path, map, size->width_px, size->height_px, err);
+    if (status == FM_OK)
+        status = map_path(path, prefix, name, "png", err);
+    if (status == FM_OK)
+        status = write_heat_png(path, shares, size, err);
+    free(shares);
     return status;
 }
 

@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-#include "base/error.h"
+#include "image/image.h"
 
 /* Heat maps show the largest difference over the four channels on one scale for all cases. */
 #define FM_HEAT_LOW  1e-4
@@ -21,6 +21,18 @@ typedef struct fm_picture_set {
  * are sRGB over white. A missing picture is no error; FM_INVALID: damaged, or of different sizes.
  */
 fm_status pictures_write(fm_picture_set *set, const char *directory, const char *id, fm_error *err);
+
+/* Which colour a map's values have. */
+typedef enum fm_map_scale {
+    FM_MAP_DECADES,   /* as heat maps */
+    FM_MAP_SHARE,     /* from 0 to 1 */
+    FM_MAP_SIMILARITY /* from 1 to 0, and where there is no number */
+} fm_map_scale;
+
+/* Writes a map of errors, [height][width] of the image's size, as PREFIX.NAME.exr (grey, its
+ * values) and PREFIX.NAME.png (coloured by the scale). FM_IO, FM_NO_MEMORY. */
+fm_status pictures_write_map(const char *prefix, const char *name, const float *map,
+                             const fm_image *size, fm_map_scale scale, fm_error *err);
 
 /* images/heat-scale.png: the colour bar of all heat maps, FM_HEAT_LOW at the left. */
 fm_status pictures_write_scale(const char *directory, fm_error *err);

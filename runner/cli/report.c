@@ -181,3 +181,25 @@ int cli_report(const fm_cli *cli, int argc, char **argv)
         fprintf(cli->talk, "fragmark: %s cannot be executed\n", program);
     return code < 0 ? CLI_NOTHING : code;
 }
+
+/* The other program has the libraries that read images; its options are its own. */
+int cli_error(const fm_cli *cli, int argc, char **argv)
+{
+    char program[FM_PATH_MAX_BYTES];
+    if (!report_find(program)) {
+        fprintf(cli->talk, "fragmark: %s\n", report_missing());
+        return CLI_NOTHING;
+    }
+    const char **passed = calloc((size_t)argc + 2, sizeof *passed);
+    if (passed == NULL)
+        return CLI_NOTHING;
+    passed[0] = program;
+    passed[1] = "error";
+    for (int i = 1; i < argc; i++)
+        passed[i + 1] = argv[i];
+    const int code = execute(passed);
+    free(passed);
+    if (code < 0)
+        fprintf(cli->talk, "fragmark: %s cannot be executed\n", program);
+    return code < 0 ? CLI_NOTHING : code;
+}

@@ -1,5 +1,5 @@
-#include "image/image.h"
 #include "fuzz.h"
+#include "image/image.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
 {

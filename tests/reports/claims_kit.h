@@ -14,9 +14,9 @@
 
 #include <cmocka.h>
 
-#include "image/image.h"
 #include "base/text.h"
 #include "claims/verdicts.h"
+#include "image/image.h"
 #include "read/paper_figure.h"
 #include "read/result_files.h"
 #include "read/table.h"

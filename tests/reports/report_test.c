@@ -14,12 +14,12 @@
 
 #include <cmocka.h>
 
-#include "image/image.h"
 #include "base/text.h"
 #include "draw/axis.h"
 #include "draw/chart.h"
 #include "draw/figure_charts.h"
 #include "draw/speed_error.h"
+#include "image/image.h"
 #include "page/report.h"
 #include "read/case_metrics.h"
 #include "read/group.h"
