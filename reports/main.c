@@ -18,17 +18,24 @@ typedef struct arguments {
     const char *directory;
     fm_text_list figures;
     const char *reference; /* NULL: not given */
+    const fm_error_kind *error;
     bool only_checks;
 } arguments;
 
 static error_t parse(int key, char *value, struct argp_state *state)
 {
     arguments *given = state->input;
+    const char *nearest = NULL;
     switch (key) {
     case 'f':
         return text_list_add(&given->figures, value) ? 0 : ENOMEM;
     case 'r':
         given->reference = value;
+        return 0;
+    case 'e':
+        given->error = error_kind_find(value, &nearest);
+        if (given->error == NULL)
+            argp_error(state, "--error %s: the nearest is '%s'", value, nearest);
         return 0;
     case KEY_CHECK:
         given->only_checks = true;
@@ -202,7 +209,8 @@ static int make_report(arguments *given, fm_error *err)
                                   .reference = reference,
                                   .draws_reference = given->reference != NULL,
                                   .figures = (const fm_paper_figure *const *)figures,
-                                  .figure_count = given->figures.count };
+                                  .figure_count = given->figures.count,
+                                  .error = given->error };
     code = write_report(given, &desc, err);
 out:
     close_figures(figures, given);
@@ -235,6 +243,11 @@ int main(int argc, char **argv)
           "Another machine's results: curves beside ours in all charts (without this option in "
           "ratios only), and verdicts on what this machine cannot test; h100",
           0 },
+        { "error", 'e', "METRIC", 0,
+          "What is held against time: total_rmse (the default), total_flip, total_ssim, "
+          "total_max_abs, all against the picture of all fragments; rmse, flip, ssim, max_abs, or "
+          "these over covered pixels (covered_rmse, ...), without what keeping only k costs",
+          0 },
         { "check", KEY_CHECK, NULL, 0,
           "Only say whether these figures and this reference can be read", 0 },
         { 0 },
@@ -245,8 +258,9 @@ int main(int argc, char **argv)
         .args_doc = "DIR",
         .doc = "Draws charts and writes report.html from the results in DIR.\v"
                "Reads DIR/manifest.json, summary.csv, samples.csv and images/; measures nothing. "
-               "Writes DIR/charts/*.svg and *.png, DIR/images/*.png, *.exr and heat maps, and "
-               "DIR/report.html, one file that opens anywhere. Prints its path.\n\n"
+               "Writes DIR/charts/*.svg and *.png, DIR/images/*.png, *.exr and heat maps, "
+               "DIR/tradeoff.csv, and DIR/report.html, one file that opens anywhere. Prints its "
+               "path.\n\n"
                "Examples:\n"
                "  fragmark-report out/kplus-05\n"
                "  fragmark-report out/mine --figure kplus-05\n"
@@ -259,7 +273,7 @@ int main(int argc, char **argv)
                "gone. After 2 and 8, and where writing failed, the report that was there is as it "
                "was.",
     };
-    arguments given = { 0 };
+    arguments given = { .error = error_kind_find(NULL, NULL) };
     fm_error err = { 0 };
     char title[] = "fragmark error";
     if (argc > 1 && strcmp(argv[1], "error") == 0) {

@@ -9,68 +9,40 @@
 enum { LABEL_PX = 10, LABELS_MOST = 400, POINTS_MOST = 1000 };
 static const double plot_width_px = 620, plot_height_px = 400;
 static const double marker_least_px = 8, marker_most_px = 19;
-static const fm_colour frontier_grey = { 205, 205, 205 };
+static const fm_colour frontier_grey = { 205, 205, 205 }, dominated_grey = { 170, 170, 170 };
 
-static double error_of(const fm_case_row *result)
-{
-    return result->metric[FM_METRIC_TOTAL_RMSE] <= FM_EXACT_RMSE
-               ? 0.0
-               : result->metric[FM_METRIC_TOTAL_RMSE];
-}
-
-static bool has_point(const fm_case_row *result)
-{
-    return result->is_measured && !result->is_simulated &&
-           isfinite(result->metric[FM_METRIC_TOTAL_RMSE]);
-}
-
-static bool is_candidate(const fm_case_row *result)
-{
-    return result->is_ok && has_point(result) && !result->look.is_control;
-}
-
-/* A case that may be on the frontier. */
-typedef struct candidate {
+/* Of those that stand on the frontier or are tied, from the fastest median on, who has less error
+ * than all before: between them the frontier goes. */
+typedef struct step {
     double ms, error;
     size_t index; /* in the group */
-} candidate;
+} step;
 
-static int compare_candidates(const void *a, const void *b)
+static int compare_steps(const void *a, const void *b)
 {
-    const candidate *x = a, *y = b;
+    const step *x = a, *y = b;
     const int order = (x->ms > y->ms) - (x->ms < y->ms);
     return order != 0 ? order : (x->error > y->error) - (x->error < y->error);
-}
-
-/* From the fastest on, who has less error than all before; and who is as good as the last such. */
-bool speed_error_frontier(bool *on, const fm_group *group)
-{
-    size_t count = 0;
-    candidate best = { .error = INFINITY };
-    candidate *sorted = calloc(group->count + 1, sizeof *sorted);
-    if (sorted == NULL)
-        return false;
-    for (size_t i = 0; i < group->count; i++) {
-        const fm_case_row *one = group->cases[i];
-        on[i] = false;
-        if (is_candidate(one))
-            sorted[count++] = (candidate){ one->metric[FM_METRIC_FRAME_MS], error_of(one), i };
-    }
-    qsort(sorted, count, sizeof *sorted, compare_candidates);
-    for (size_t i = 0; i < count; i++) {
-        const bool is_equal = sorted[i].error == best.error && sorted[i].ms == best.ms;
-        on[sorted[i].index] = is_equal || sorted[i].error < best.error;
-        if (sorted[i].error < best.error)
-            best = sorted[i];
-    }
-    free(sorted);
-    return true;
 }
 
 static int compare_points(const void *a, const void *b)
 {
     const fm_point *p = a, *q = b;
     return (p->x > q->x) - (p->x < q->x);
+}
+
+/* What the points of a chart share. */
+typedef struct look_of_points {
+    const fm_error_kind *kind;
+    const fm_place *places; /* [group->count] */
+    double bytes_most;      /* of any case */
+    bool is_cloud;          /* more points than POINTS_MOST: dominated ones are left out */
+} look_of_points;
+
+static bool is_shown(const fm_group *group, size_t i, const look_of_points *look)
+{
+    return standing_has_point(group->cases[i], look->kind) &&
+           (!look->is_cloud || look->places[i].standing >= FM_STANDING_TIED);
 }
 
 /* Stairs: between two points of the frontier the earlier one is the best there is. */
@@ -87,18 +59,30 @@ static void make_stairs(fm_chart *chart, fm_series *series)
     }
 }
 
-static void add_frontier(fm_chart *chart, const fm_group *group, const bool *on)
+static void add_frontier(fm_chart *chart, const fm_group *group, const look_of_points *look)
 {
+    size_t count = 0;
+    double least = INFINITY;
     fm_series *series = chart_add_series(chart);
-    if (series == NULL)
+    step *steps = calloc(group->count + 1, sizeof *steps);
+    if (series == NULL || steps == NULL) {
+        chart->failed = true;
+        free(steps);
         return;
+    }
     for (size_t i = 0; i < group->count; i++)
-        if (on[i])
-            chart_add_point(chart, series,
-                            &(fm_point){ .x = error_of(group->cases[i]),
-                                         .y = group->cases[i]->metric[FM_METRIC_FRAME_MS],
-                                         .low = NAN,
-                                         .high = NAN });
+        if (look->places[i].standing >= FM_STANDING_TIED)
+            steps[count++] = (step){ group->cases[i]->metric[FM_METRIC_FRAME_MS],
+                                     error_kind_of(look->kind, group->cases[i]), i };
+    qsort(steps, count, sizeof *steps, compare_steps);
+    for (size_t i = 0; i < count; i++) {
+        if (steps[i].error < least)
+            chart_add_point(
+                chart, series,
+                &(fm_point){ .x = steps[i].error, .y = steps[i].ms, .low = NAN, .high = NAN });
+        least = fmin(least, steps[i].error);
+    }
+    free(steps);
     if (series->point_count < 2) {
         series->point_count = 0;
         return;
@@ -118,45 +102,53 @@ static double marker_px(const fm_case_row *result, double bytes_most)
                                  sqrt(result->metric[FM_METRIC_BYTES_ALLOCATED] / bytes_most);
 }
 
-/* What the points of a chart share. */
-typedef struct look_of_points {
-    double bytes_most; /* of any case */
-    const bool *shown; /* [group->count]: the cases that have a point; NULL: all */
-} look_of_points;
+/* Which of a method's points make a series. */
+typedef enum sort { SORT_GOOD, SORT_DOMINATED, SORT_WRONG, SORTS } sort;
 
-/* The points of one method with one status: solid when ok, hollow when not. */
-static void add_method(fm_chart *chart, const fm_group *group, size_t first, bool is_ok,
+static sort sort_of(const fm_case_row *result, const fm_place *place)
+{
+    if (!result->is_ok)
+        return SORT_WRONG;
+    return place->standing == FM_STANDING_DOMINATED ? SORT_DOMINATED : SORT_GOOD;
+}
+
+static void dress(fm_series *series, const fm_case_row *one, sort wanted)
+{
+    char title[96];
+    group_series_title(title, one, NULL);
+    if (wanted != SORT_DOMINATED)
+        snprintf(series->label, sizeof series->label, "%.76s%s", title,
+                 wanted == SORT_WRONG ? " (wrong image)" : "");
+    series->colour =
+        wanted == SORT_DOMINATED ? dominated_grey : look_family_colour(one->look.family);
+    series->marker = one->look.marker;
+    series->has_marker = true;
+    series->hollow = wanted == SORT_WRONG;
+    series->stroke = FM_STROKE_NONE;
+}
+
+/* The points of one method and sort: grey where dominated, hollow where not ok. */
+static void add_method(fm_chart *chart, const fm_group *group, size_t first, sort wanted,
                        const look_of_points *look)
 {
     const fm_case_row *one = group->cases[first];
     fm_series *series = chart_add_series(chart);
     if (series == NULL)
         return;
-    char title[96];
-    group_series_title(title, one, NULL);
     for (size_t i = first; i < group->count && group_same_series(group->cases[i], one); i++) {
         const fm_case_row *result = group->cases[i];
-        if (has_point(result) && result->is_ok == is_ok && (look->shown == NULL || look->shown[i]))
+        if (is_shown(group, i, look) && sort_of(result, &look->places[i]) == wanted)
             chart_add_point(chart, series,
                             &(fm_point){
-                                .x = error_of(result),
+                                .x = error_kind_of(look->kind, result),
                                 .y = result->metric[FM_METRIC_FRAME_MS],
                                 .low = result->low[FM_METRIC_FRAME_MS],
                                 .high = result->high[FM_METRIC_FRAME_MS],
                                 .size_px = marker_px(result, look->bytes_most),
                             });
     }
-    if (series->point_count == 0)
-        return;
-    snprintf(series->label, sizeof series->label, "%.76s%s", title, is_ok ? "" : " (wrong image)");
-    series->colour = look_family_colour(one->look.family);
-    series->marker = one->look.marker;
-    series->has_marker = true;
-    series->hollow = !is_ok;
-    series->stroke = !is_ok                ? FM_STROKE_NONE
-                     : one->look.is_dashed ? FM_STROKE_DASHED
-                                           : FM_STROKE_SOLID;
-    series->width_px = 1.1;
+    if (series->point_count > 0)
+        dress(series, one, wanted);
 }
 
 typedef struct box {
@@ -174,10 +166,10 @@ typedef struct taken_boxes {
     size_t count;
 } taken_boxes;
 
-static box marker_box(const fm_chart *chart, const fm_case_row *result, double bytes_most)
+static box marker_box(const fm_chart *chart, const fm_case_row *result, const look_of_points *look)
 {
-    double half = marker_px(result, bytes_most) / 2;
-    double x = axis_position(&chart->x, error_of(result));
+    double half = marker_px(result, look->bytes_most) / 2;
+    double x = axis_position(&chart->x, error_kind_of(look->kind, result));
     double y = axis_position(&chart->y, result->metric[FM_METRIC_FRAME_MS]);
     return (box){ x - half, y - half, x + half, y + half };
 }
@@ -217,103 +209,122 @@ static void add_label(fm_chart *chart, taken_boxes *taken, const box *marker, co
     }
 }
 
-static void add_labels(fm_chart *chart, const fm_group *group, box *boxes, double bytes_most)
+/* Of what is grey there is no label. */
+static void add_labels(fm_chart *chart, const fm_group *group, box *boxes,
+                       const look_of_points *look)
 {
     taken_boxes taken = { .boxes = boxes };
     if (group->count > LABELS_MOST) /* there is no room for them */
         return;
     for (size_t i = 0; i < group->count; i++)
-        if (has_point(group->cases[i]))
-            taken.boxes[taken.count++] = marker_box(chart, group->cases[i], bytes_most);
+        if (is_shown(group, i, look))
+            taken.boxes[taken.count++] = marker_box(chart, group->cases[i], look);
     for (size_t i = 0; i < group->count; i++) {
         const fm_case_row *result = group->cases[i];
-        if (!has_point(result) || !group_uses_k(group, result))
+        if (!is_shown(group, i, look) || !group_uses_k(group, result) ||
+            look->places[i].standing == FM_STANDING_DOMINATED)
             continue;
         char text[24];
-        box marker = marker_box(chart, result, bytes_most);
+        box marker = marker_box(chart, result, look);
         snprintf(text, sizeof text, "k=%.0f", result->k);
         add_label(chart, &taken, &marker, text);
     }
 }
 
-/* Axes from what will be drawn; returns how many points there are. */
-static size_t fit_axes(fm_chart *chart, const fm_group *group, double *values)
+static size_t collect(double *values, const fm_group *group, const fm_error_kind *kind, bool times)
 {
-    size_t points = 0, times = 0;
-    for (size_t i = 0; i < group->count; i++)
-        if (has_point(group->cases[i]))
-            values[points++] = error_of(group->cases[i]);
-    chart->x = (fm_axis){ .title = "error: RMSE against the picture of all fragments",
-                          .scale = FM_SCALE_LOG,
-                          .zero_below = FM_EXACT_RMSE,
-                          .length_px = plot_width_px };
-    axis_fit(&chart->x, values, points);
-    for (size_t i = 0; i < group->count; i++)
-        if (has_point(group->cases[i])) {
-            values[times++] = group->cases[i]->metric[FM_METRIC_FRAME_MS];
-            values[times++] = group->cases[i]->low[FM_METRIC_FRAME_MS];
-            values[times++] = group->cases[i]->high[FM_METRIC_FRAME_MS];
+    size_t count = 0;
+    for (size_t i = 0; i < group->count; i++) {
+        const fm_case_row *one = group->cases[i];
+        if (!standing_has_point(one, kind))
+            continue;
+        values[count++] = times ? one->metric[FM_METRIC_FRAME_MS] : error_kind_of(kind, one);
+        if (times) {
+            values[count++] = one->low[FM_METRIC_FRAME_MS];
+            values[count++] = one->high[FM_METRIC_FRAME_MS];
         }
+    }
+    return count;
+}
+
+/* Axes from what will be drawn; returns how many points there are. */
+static size_t fit_axes(fm_chart *chart, const fm_group *group, const fm_error_kind *kind,
+                       double *values)
+{
+    const fm_metric_info *error = &fm_metrics[kind->metric];
+    const size_t points = collect(values, group, kind, false);
+    chart->x = (fm_axis){ .scale = FM_SCALE_LOG,
+                          .zero_below = kind->exact_below,
+                          .length_px = plot_width_px };
+    snprintf(chart->x.title, sizeof chart->x.title, "error: %s%s",
+             error->better == FM_BETTER_MORE ? "1 - " : "", error->name);
+    axis_fit(&chart->x, values, points);
     chart->y =
         (fm_axis){ .title = "frame time [ms]", .scale = FM_SCALE_LOG, .length_px = plot_height_px };
-    axis_fit(&chart->y, values, times);
+    axis_fit(&chart->y, values, collect(values, group, kind, true));
     return points;
 }
 
-static double most_bytes(const fm_group *group)
+static double most_bytes(const fm_group *group, const fm_error_kind *kind)
 {
     double most = 0.0;
     for (size_t i = 0; i < group->count; i++)
-        if (has_point(group->cases[i]) && group->cases[i]->metric[FM_METRIC_BYTES_ALLOCATED] > most)
-            most = group->cases[i]->metric[FM_METRIC_BYTES_ALLOCATED];
+        if (standing_has_point(group->cases[i], kind))
+            most = fmax(most, group->cases[i]->metric[FM_METRIC_BYTES_ALLOCATED]);
     return most;
 }
 
-fm_status speed_error_chart(fm_chart *chart, const fm_group *group, fm_error *err)
+static void add_texts(fm_chart *chart, const fm_group *group, const look_of_points *look,
+                      size_t points)
+{
+    snprintf(chart->title, sizeof chart->title, "Speed against error: %.120s", group->title);
+    if (!look->is_cloud)
+        snprintf(chart->subtitle, sizeof chart->subtitle, "%s", group->workload);
+    else
+        snprintf(chart->subtitle, sizeof chart->subtitle,
+                 "%.120s; of %zu cases, dominated ones are left out", group->workload, points);
+    snprintf(chart->notes[0], sizeof chart->notes[0],
+             "lower left is better; bars: 95 %% intervals");
+    snprintf(chart->notes[1], sizeof chart->notes[1], "grey: another has no more error");
+    snprintf(chart->notes[2], sizeof chart->notes[2], "and is clearly faster");
+    snprintf(chart->notes[3], sizeof chart->notes[3], "marker area: memory,");
+    snprintf(chart->notes[4], sizeof chart->notes[4], "the largest is %.4g MiB",
+             look->bytes_most / 1048576.0);
+}
+
+static void add_points(fm_chart *chart, const fm_group *group, const look_of_points *look)
+{
+    for (int wanted = SORTS; wanted-- > 0;) /* the good ones last, on top */
+        for (size_t i = 0; i < group->count; i++)
+            if (i == 0 || !group_same_series(group->cases[i - 1], group->cases[i]))
+                add_method(chart, group, i, (sort)wanted, look);
+}
+
+fm_status speed_error_chart(fm_chart *chart, const fm_group *group, const fm_error_kind *kind,
+                            fm_error *err)
 {
     fm_status status = FM_OK;
     *chart = (fm_chart){ 0 };
-    double bytes_most = most_bytes(group);
     double *values = calloc(3 * group->count + 1, sizeof *values);
-    bool *on = calloc(group->count + 1, sizeof *on);
+    fm_place *places = calloc(group->count + 1, sizeof *places);
     box *taken = calloc(2 * group->count + 1, sizeof *taken);
-    if (values == NULL || on == NULL || taken == NULL) {
+    if (values == NULL || places == NULL || taken == NULL || !standings_make(places, group, kind)) {
         status = fm_fail(err, FM_NO_MEMORY, "chart of %s", group->title);
         goto out;
     }
-    const size_t points = fit_axes(chart, group, values);
-    if (!speed_error_frontier(on, group)) {
-        status = fm_fail(err, FM_NO_MEMORY, "chart of %s", group->title);
-        goto out;
-    }
+    const size_t points = fit_axes(chart, group, kind, values);
+    const look_of_points look = { kind, places, most_bytes(group, kind), points > POINTS_MOST };
     if (points == 0) {
         status = fm_fail(err, FM_UNSUPPORTED, "%s: no case has a time and an error", group->title);
         goto out;
     }
-    snprintf(chart->title, sizeof chart->title, "Speed against error: %.120s", group->title);
-    const look_of_points look = { bytes_most, points > POINTS_MOST ? on : NULL };
-    if (look.shown == NULL)
-        snprintf(chart->subtitle, sizeof chart->subtitle, "%s", group->workload);
-    else
-        snprintf(chart->subtitle, sizeof chart->subtitle,
-                 "%.120s; of %zu cases, only those on the frontier are drawn", group->workload,
-                 points);
-    add_frontier(chart, group, on);
-    for (size_t i = 0; i < group->count; i++) {
-        if (i > 0 && group_same_series(group->cases[i - 1], group->cases[i]))
-            continue;
-        add_method(chart, group, i, true, &look);
-        add_method(chart, group, i, false, &look);
-    }
-    add_labels(chart, group, taken, bytes_most);
-    snprintf(chart->notes[0], sizeof chart->notes[0], "lower left is better");
-    snprintf(chart->notes[1], sizeof chart->notes[1], "bars: 95 %% intervals");
-    snprintf(chart->notes[2], sizeof chart->notes[2], "marker area: memory,");
-    snprintf(chart->notes[3], sizeof chart->notes[3], "the largest is %.4g MiB",
-             bytes_most / 1048576.0);
+    add_frontier(chart, group, &look);
+    add_points(chart, group, &look);
+    add_labels(chart, group, taken, &look);
+    add_texts(chart, group, &look, points);
 out:
     free(values);
-    free(on);
+    free(places);
     free(taken);
     return status;
 }

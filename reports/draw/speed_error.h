@@ -4,20 +4,19 @@
 #define FM_SPEED_ERROR_H
 
 #include "chart.h"
-#include "read/group.h"
+#include "tradeoff/overall.h"
 
-/* Errors up to this are single-precision rounding: the picture is exact. */
-#define FM_EXACT_RMSE 1e-6
+/* x: the error (log, a bin for exact pictures at the left). y: frame_ms with its interval (log).
+ * Marker area: bytes_allocated. Grey: dominated (tradeoff/standing.h). Hollow: status is not ok. A
+ * line of stairs joins the medians of those that are not dominated and that no faster one betters.
+ * Of more than 1000 points dominated ones are left out, which the subtitle says; more than 400
+ * cases have no labels. FM_UNSUPPORTED: nothing to draw. The caller frees *chart. */
+fm_status speed_error_chart(fm_chart *chart, const fm_group *group, const fm_error_kind *kind,
+                            fm_error *err);
 
-/* on[i]: no other candidate is as good as case i of the group in both frame_ms and total_rmse and
- * better in one. Candidates are cases with status ok, a time and an error; controls are not. false:
- * no memory. */
-bool speed_error_frontier(bool *on, const fm_group *group);
-
-/* x: total_rmse (log, a bin for exact pictures at the left). y: frame_ms with its interval (log).
- * Marker area: bytes_allocated. Hollow: status is not ok. Of more than 1000 points only those on
- * the frontier are drawn, which the subtitle says; more than 400 cases have no labels.
- * FM_UNSUPPORTED: nothing to draw. The caller frees *chart. */
-fm_status speed_error_chart(fm_chart *chart, const fm_group *group, fm_error *err);
+/* The same over several workloads: x is the worst error, y the geometric mean of the time over that
+ * of the cheapest exact case of each workload. */
+fm_status speed_error_overall_chart(fm_chart *chart, const fm_overall *overall,
+                                    const fm_error_kind *kind, fm_error *err);
 
 #endif

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "draw/speed_error.h"
 #include "html.h"
 
 /* A metric's name and meaning are its own; other columns have them here. */
@@ -13,7 +12,8 @@ static const struct {
     const char *title, *help;
     fm_metric metric; /* where title is NULL */
 } columns[] = {
-    { "&#9679;", "on the Pareto frontier", 0 },
+    { "&#9679;",
+      "&#9679; on the frontier: clearly faster than all with no more error; &#9675; tied", 0 },
     { "method", "as its paper names it", 0 },
     { "k", "fragments kept per pixel", 0 },
     { .metric = FM_METRIC_N },
@@ -89,7 +89,15 @@ static void add_status(fm_text *page, const fm_case_row *result)
     text_add(page, "</td>");
 }
 
-static void add_row(fm_text *page, const fm_case_row *result, bool on_frontier, bool has_messages)
+static const char *standing_mark(fm_standing standing)
+{
+    return standing == FM_STANDING_FRONTIER ? "&#9679;"
+           : standing == FM_STANDING_TIED   ? "&#9675;"
+                                            : "";
+}
+
+static void add_row(fm_text *page, const fm_case_row *result, fm_standing standing,
+                    bool has_messages)
 {
     char title[96];
     group_series_title(title, result, NULL);
@@ -97,7 +105,7 @@ static void add_row(fm_text *page, const fm_case_row *result, bool on_frontier, 
              result->is_ok         ? "ok"
              : result->is_measured ? "wrong"
                                    : "none",
-             on_frontier ? 0 : 1, on_frontier ? "&#9679;" : "");
+             FM_STANDING_FRONTIER - (int)standing, standing_mark(standing));
     html_add(page, title);
     text_add(page, "</td>");
     html_add_number(page, 8, result->k);
@@ -129,21 +137,21 @@ static void add_head(fm_text *page, size_t column)
     text_add(page, "\">%s</th>", is_metric ? metric->name : columns[column].title);
 }
 
-void case_table_add(fm_text *page, const fm_group *group)
+void case_table_add(fm_text *page, const fm_group *group, const fm_error_kind *kind)
 {
-    bool *on = calloc(group->count + 1, sizeof *on);
-    if (on == NULL) {
+    fm_place *places = calloc(group->count + 1, sizeof *places);
+    if (places == NULL) {
         page->failed = true;
         return;
     }
-    page->failed |= !speed_error_frontier(on, group);
+    page->failed |= !standings_make(places, group, kind);
     const bool has_messages = has_message(group);
     text_add(page, "<div class=table><table><thead><tr>");
     for (size_t i = 0; i < COLUMN_COUNT - (has_messages ? 0 : 1); i++)
         add_head(page, i);
     text_add(page, "</tr></thead><tbody>\n");
     for (size_t i = 0; i < group->count; i++)
-        add_row(page, group->cases[i], on[i], has_messages);
+        add_row(page, group->cases[i], places[i].standing, has_messages);
     text_add(page, "</tbody></table></div>\n");
-    free(on);
+    free(places);
 }

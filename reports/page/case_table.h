@@ -3,10 +3,10 @@
 #define FM_CASE_TABLE_H
 
 #include "base/text.h"
-#include "read/group.h"
+#include "tradeoff/standing.h"
 
-/* Cases on the Pareto frontier of the group are marked; a column of messages is there only where a
- * case has one. */
-void case_table_add(fm_text *page, const fm_group *group);
+/* Cases on the frontier of the group, by that error, and tied ones are marked; a column of messages
+ * is there only where a case has one. */
+void case_table_add(fm_text *page, const fm_group *group, const fm_error_kind *kind);
 
 #endif

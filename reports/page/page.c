@@ -147,9 +147,11 @@ void page_add_guide(fm_text *page)
         "<b>missing, extra, misordered</b> count fragments, not pixels. A method that claims to be "
         "exact and is not has the status wrong_image, but losses that it declares are excused; for "
         "methods published as approximate or racy a wrong picture is a result.",
-        "<b>The Pareto frontier</b> (&#9679; in tables) joins the cases that no other beats in "
-        "both time and error. "
-        "Controls do not compete for it.",
+        "<b>The frontier</b> (&#9679; in tables) are the cases that are clearly faster than all "
+        "with no more error: their intervals lie apart. Where these overlap, cases are tied "
+        "(&#9675;); a case is dominated, and grey in charts, if another with no more error is "
+        "clearly faster. Times of one launch have no interval, and all are tied. Controls do not "
+        "compete. <a href=\"tradeoff.csv\">tradeoff.csv</a> has the numbers.",
     };
     text_add(page, "<h2 id=guide>How to read this</h2>\n<ul>\n");
     for (size_t i = 0; i < sizeof sentences / sizeof sentences[0]; i++)

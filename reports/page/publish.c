@@ -119,44 +119,83 @@ static fm_status move_chart(const char *directory, const char *name, fm_error *e
     return status == FM_OK ? put_in_place(from, to, err) : status;
 }
 
-static fm_status move_all(const fm_publish_desc *desc, const char *new_page, const char *new_claims,
-                          fm_error *err)
+/* The page comes last: while it is the old one, it shows old charts and numbers. */
+enum { CLAIMS, TRADEOFF, PAGE, FILES };
+static const char *const file_names[FILES] = { "claims.csv", "tradeoff.csv", "report.html" };
+
+/* What happens to a file of before. */
+typedef enum fate { FATE_REPLACE, FATE_REMOVE, FATE_LEAVE } fate;
+
+typedef struct published {
+    fate fate;
+    char path[FM_PATH_MAX_BYTES], made[FM_PATH_MAX_BYTES]; /* made: beside it, till all is there */
+} published;
+
+static fate fate_of(const fm_publish_desc *desc, int file)
 {
-    char page[FM_PATH_MAX_BYTES], claims[FM_PATH_MAX_BYTES];
-    fm_status status = path_join(page, desc->directory, "report.html", err);
+    if (file == CLAIMS)
+        return desc->verdicts == NULL       ? FATE_LEAVE
+               : desc->verdicts->count == 0 ? FATE_REMOVE
+                                            : FATE_REPLACE;
+    return file == TRADEOFF && desc->tradeoff == NULL ? FATE_LEAVE : FATE_REPLACE;
+}
+
+static fm_status name_files(published files[FILES], const fm_publish_desc *desc, fm_error *err)
+{
+    fm_status status = FM_OK;
+    for (int i = 0; i < FILES && status == FM_OK; i++) {
+        char made[32];
+        files[i].fate = fate_of(desc, i);
+        snprintf(made, sizeof made, "%s.new", file_names[i]);
+        status = path_join(files[i].path, desc->directory, file_names[i], err);
+        if (status == FM_OK)
+            status = path_join(files[i].made, desc->directory, made, err);
+    }
+    return status;
+}
+
+static fm_status write_files(const published files[FILES], const fm_publish_desc *desc,
+                             fm_error *err)
+{
+    const fm_text *const texts[FILES] = { [TRADEOFF] = desc->tradeoff, [PAGE] = desc->page };
+    fm_status status = FM_OK;
+    for (int i = 0; i < FILES && status == FM_OK; i++) {
+        if (files[i].fate != FATE_REPLACE)
+            continue;
+        status = i == CLAIMS
+                     ? verdicts_write(desc->verdicts, files[i].made, err)
+                     : text_write_file(files[i].made, texts[i]->bytes, texts[i]->length, err);
+    }
+    return status;
+}
+
+static fm_status move_all(const published files[FILES], const char *directory, fm_error *err)
+{
+    fm_status status = visit_charts(directory, "charts", remove_old, err);
     if (status == FM_OK)
-        status = path_join(claims, desc->directory, "claims.csv", err);
-    if (status == FM_OK)
-        status = visit_charts(desc->directory, "charts", remove_old, err);
-    if (status == FM_OK)
-        status = visit_charts(desc->directory, FM_PUBLISH_CHARTS, move_chart, err);
-    if (status == FM_OK && desc->verdicts != NULL && desc->verdicts->count > 0)
-        status = put_in_place(new_claims, claims, err);
-    else if (status == FM_OK && desc->verdicts != NULL && unlink(claims) != 0 && errno != ENOENT)
-        status = fm_fail(err, FM_IO, "%s: %s", claims, strerror(errno));
-    return status == FM_OK ? put_in_place(new_page, page, err) : status;
+        status = visit_charts(directory, FM_PUBLISH_CHARTS, move_chart, err);
+    for (int i = 0; i < FILES && status == FM_OK; i++) {
+        if (files[i].fate == FATE_REPLACE)
+            status = put_in_place(files[i].made, files[i].path, err);
+        else if (files[i].fate == FATE_REMOVE && unlink(files[i].path) != 0 && errno != ENOENT)
+            status = fm_fail(err, FM_IO, "%s: %s", files[i].path, strerror(errno));
+    }
+    return status;
 }
 
 fm_status publish_end(const fm_publish_desc *desc, fm_error *err)
 {
-    char page[FM_PATH_MAX_BYTES], claims[FM_PATH_MAX_BYTES];
+    published files[FILES];
     fm_status status = make_folder(desc->directory, "charts", err);
     if (status == FM_OK)
-        status = path_join(page, desc->directory, "report.html.new", err);
-    if (status == FM_OK)
-        status = path_join(claims, desc->directory, "claims.csv.new", err);
+        status = name_files(files, desc, err);
     if (status != FM_OK)
         return status;
-    if (desc->verdicts != NULL && desc->verdicts->count > 0)
-        status = verdicts_write(desc->verdicts, claims, err);
+    status = write_files(files, desc, err);
     if (status == FM_OK)
-        status = text_write_file(page, desc->page->bytes, desc->page->length, err);
-    if (status == FM_OK)
-        status = move_all(desc, page, claims, err);
-    if (status != FM_OK) {
-        unlink(page);
-        unlink(claims);
-    }
+        status = move_all(files, desc->directory, err);
+    for (int i = 0; i < FILES && status != FM_OK; i++)
+        unlink(files[i].made);
     return status;
 }
 

@@ -15,6 +15,7 @@
 #include "claims/verdicts.h"
 #include "read/paper_figure.h"
 #include "read/result_files.h"
+#include "tradeoff/error_kind.h"
 
 /* What a report is made of; all of it is borrowed. */
 typedef struct fm_report_desc {
@@ -24,6 +25,7 @@ typedef struct fm_report_desc {
     const fm_claim_results *verdicts;      /* of the figures' claims; NULL: none */
     const fm_paper_figure *const *figures; /* [figure_count]; 0: no sections of papers */
     size_t figure_count;
+    const fm_error_kind *error; /* what is held against time */
 } fm_report_desc;
 
 /* How much was written. */

@@ -200,7 +200,7 @@ static fm_status read_parts(fm_paper_figure *figure, const fm_yaml_place *at)
     fm_status status = field_list(&figure->deviations, file->tree, "deviations", at);
     if (status == FM_OK)
         status = read_run(figure, file->run, at);
-    if (status == FM_OK && !(file->charts == NULL && file->table != NULL))
+    if (status == FM_OK && file->charts != NULL)
         status = read_charts(figure, file->charts, at);
     if (status == FM_OK)
         status = read_paper_points(figure, file->paper_points, at);

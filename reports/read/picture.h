@@ -3,8 +3,8 @@
 #ifndef FM_READ_PICTURE_H
 #define FM_READ_PICTURE_H
 
-#include "image/image.h"
 #include "base/path.h"
+#include "image/image.h"
 
 /* path = DIRECTORY/images/ID ENDING. id: of a case, or another name of at most 64 bytes; ending:
  * ".truth.rgba32f", of at most 32. FM_INVALID: the path is too long. */

@@ -154,9 +154,11 @@ char *cli_command_text(int argc, char **argv);
 
 /* Path of fragmark-report, beside the program or in PATH; false: there is none. */
 bool report_find(char path[FM_PATH_MAX_BYTES]);
-/* Executes it on a folder, with another machine's results where reference is not NULL; its exit
- * status, or -1 when it could not be executed. */
-int report_execute(const char *program, const char *directory, const char *reference);
+/* Executes it on a folder; its exit status, or -1 when it could not be executed.
+ * reference  another machine's results; NULL: none of its own choice
+ * error      the metric that is held against time; NULL: the default */
+int report_execute(const char *program, const char *directory, const char *reference,
+                   const char *error);
 /* Before anything is measured: FM_INVALID or FM_IO if the reference that is asked for, or a figure
  * that the report is to draw, cannot be read. Says so if there is no fragmark-report. figures: ids,
  * ends with NULL. */

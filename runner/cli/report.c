@@ -48,10 +48,19 @@ static int execute(const char *const *argv)
     return WIFEXITED(status) ? WEXITSTATUS(status) : CLI_SIGNAL + WTERMSIG(status);
 }
 
-int report_execute(const char *program, const char *directory, const char *reference)
+int report_execute(const char *program, const char *directory, const char *reference,
+                   const char *error)
 {
-    const char *const argv[] = { program, directory, reference != NULL ? "--reference" : NULL,
-                                 reference, NULL };
+    const char *argv[7] = { program, directory };
+    int count = 2;
+    if (reference != NULL) {
+        argv[count++] = "--reference";
+        argv[count++] = reference;
+    }
+    if (error != NULL) {
+        argv[count++] = "--error";
+        argv[count++] = error;
+    }
     return execute(argv);
 }
 
@@ -122,7 +131,7 @@ const char *report_missing(void)
 }
 
 typedef struct report_arguments {
-    const char *directory, *reference;
+    const char *directory, *reference, *error;
 } report_arguments;
 
 static error_t parse(int key, char *text, struct argp_state *state)
@@ -131,6 +140,9 @@ static error_t parse(int key, char *text, struct argp_state *state)
     switch (key) {
     case 'r':
         given->reference = text;
+        return 0;
+    case 'e':
+        given->error = text;
         return 0;
     case ARGP_KEY_ARG:
         if (given->directory != NULL)
@@ -152,6 +164,10 @@ static error_t parse(int key, char *text, struct argp_state *state)
 static const struct argp_option options[] = {
     { "reference", 'r', "NAME|DIR|none", 0,
       "another machine's results beside ours in all charts; without it h100 in ratios and verdicts",
+      0 },
+    { "error", 'e', "METRIC", 0,
+      "what is held against time: total_rmse (the default), total_flip, total_ssim, flip, "
+      "covered_rmse, ...",
       0 },
     CLI_HELP_OPTION,
     { 0 },
@@ -176,7 +192,7 @@ int cli_report(const fm_cli *cli, int argc, char **argv)
         fprintf(cli->talk, "fragmark: %s\n", report_missing());
         return CLI_NOTHING;
     }
-    const int code = report_execute(program, given.directory, given.reference);
+    const int code = report_execute(program, given.directory, given.reference, given.error);
     if (code < 0)
         fprintf(cli->talk, "fragmark: %s cannot be executed\n", program);
     return code < 0 ? CLI_NOTHING : code;

@@ -75,7 +75,7 @@ static int report(const fm_arguments *arguments, const char *directory)
     char program[FM_PATH_MAX_BYTES];
     if (!report_find(program))
         return CLI_DONE; /* report_expect has told */
-    const int code = report_execute(program, directory, arguments->reference);
+    const int code = report_execute(program, directory, arguments->reference, NULL);
     if (code == CLI_DONE || code == CLI_CLAIM_FAILS)
         return code;
     if (code == CLI_INCOMPLETE)

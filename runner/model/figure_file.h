@@ -14,11 +14,12 @@
  *   smoke: { n: 32 }           what --smoke changes in each block of `run`
  *   large: [blocks]            what --large measures too
  *   pictures: true             pictures and heat maps of its cases are kept; default false
- *   charts: ...                in the report's order: reports/read/paper_figure.h
+ *   charts: ...                in the report's order: reports/read/paper_figure.h; without them,
+ *                              those that every report has
  *   paper_points: ...          the values that the paper prints: there too
  *   claims: ...                reports/read/claim.h
  *   deviations: [sentences]
- *   table: ...                 memory by formula: plan/memory_table.h; charts may be missing
+ *   table: ...                 memory by formula: plan/memory_table.h
  *
  * Unknown keys are refused with file, line and the nearest known one. */
 #ifndef FM_FIGURE_FILE_H

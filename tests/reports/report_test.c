@@ -18,7 +18,6 @@
 #include "draw/axis.h"
 #include "draw/chart.h"
 #include "draw/figure_charts.h"
-#include "draw/speed_error.h"
 #include "image/image.h"
 #include "page/report.h"
 #include "read/case_metrics.h"
@@ -241,25 +240,6 @@ static void results_leave_out_frames_that_are_off_clock(void **state)
     remove_directory(directory);
 }
 
-static void frontier_holds_what_no_other_case_beats(void **state)
-{
-    (void)state;
-    char directory[64];
-    fm_result_files *results;
-    fm_groups groups;
-    bool on[USUAL];
-    make_results(directory, usual, USUAL);
-    assert_int_equal(result_files_read(&results, directory, NULL), FM_OK);
-    assert_int_equal(groups_make(&groups, results, &(fm_groups_desc){ 0 }, NULL), FM_OK);
-    assert_int_equal(groups.count, 1);
-    speed_error_frontier(on, &groups.groups[0]);
-    for (size_t i = 0; i < USUAL; i++)
-        assert_int_equal(on[i], strcmp(groups.groups[0].cases[i]->method, "kplus-array") == 0);
-    groups_free(&groups);
-    result_files_close(results);
-    remove_directory(directory);
-}
-
 static void groups_keep_different_scene_options_apart(void **state)
 {
     (void)state;
@@ -373,7 +353,8 @@ static char *report_of(const char *directory, const char *figure_path)
     const fm_paper_figure *figures[] = { figure };
     const fm_report_desc desc = { .results = results,
                                   .figures = figures,
-                                  .figure_count = figure != NULL };
+                                  .figure_count = figure != NULL,
+                                  .error = error_kind_find(NULL, NULL) };
     assert_int_equal(report_write(&outcome, &desc, &err), FM_OK);
     snprintf(path, sizeof path, "%s/report.html", directory);
     assert_int_equal(text_read_file(&html, &count, path, 64 << 20, &err), FM_OK);
@@ -483,7 +464,6 @@ int main(void)
         cmocka_unit_test(results_name_what_is_damaged),
         cmocka_unit_test(results_take_total_rmse_from_samples),
         cmocka_unit_test(results_leave_out_frames_that_are_off_clock),
-        cmocka_unit_test(frontier_holds_what_no_other_case_beats),
         cmocka_unit_test(groups_keep_different_scene_options_apart),
         cmocka_unit_test(figure_files_of_the_project_are_read),
         cmocka_unit_test(points_of_the_paper_are_sums_of_parts),

@@ -1,0 +1,39 @@
+#include "error_kind.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/text.h"
+
+static const fm_error_kind kinds[] = {
+    { FM_METRIC_TOTAL_RMSE, 1e-6 },   { FM_METRIC_TOTAL_MAX_ABS, 1e-5 },
+    { FM_METRIC_TOTAL_SSIM, 1e-6 },   { FM_METRIC_TOTAL_FLIP, 2e-4 },
+    { FM_METRIC_RMSE, 1e-6 },         { FM_METRIC_MAX_ABS, 1e-5 },
+    { FM_METRIC_SSIM, 1e-6 },         { FM_METRIC_FLIP, 2e-4 },
+    { FM_METRIC_COVERED_RMSE, 1e-6 }, { FM_METRIC_COVERED_MAX_ABS, 1e-5 },
+    { FM_METRIC_COVERED_SSIM, 1e-6 }, { FM_METRIC_COVERED_FLIP, 2e-4 },
+};
+enum { KINDS = sizeof kinds / sizeof kinds[0] };
+
+const fm_error_kind *error_kind_find(const char *name, const char **nearest)
+{
+    const char *names[KINDS];
+    if (name == NULL)
+        return &kinds[0];
+    for (int i = 0; i < KINDS; i++) {
+        names[i] = fm_metrics[kinds[i].metric].name;
+        if (strcmp(names[i], name) == 0)
+            return &kinds[i];
+    }
+    *nearest = text_nearest(name, names, KINDS);
+    if (*nearest == NULL)
+        *nearest = names[0];
+    return NULL;
+}
+
+double error_kind_of(const fm_error_kind *kind, const fm_case_row *result)
+{
+    const double value = result->metric[kind->metric];
+    const double error = fm_metrics[kind->metric].better == FM_BETTER_MORE ? 1 - value : value;
+    return error <= kind->exact_below ? 0.0 : error;
+}

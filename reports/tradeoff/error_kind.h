@@ -1,0 +1,20 @@
+/* Which error is held against time. */
+#ifndef FM_ERROR_KIND_H
+#define FM_ERROR_KIND_H
+
+#include "read/cases.h"
+
+typedef struct fm_error_kind {
+    fm_metric metric;
+    /* Errors up to this are rounding: the picture is exact. FLIP and the like magnify rounding. */
+    double exact_below;
+} fm_error_kind;
+
+/* The kind of that name: a metric of an image's error, such as total_flip. NULL: total_rmse, the
+ * default. Returns NULL if there is none, with the nearest in *nearest. */
+const fm_error_kind *error_kind_find(const char *name, const char **nearest);
+
+/* A case's error, 0 where it is exact; of a similarity (ssim) what is missing to 1. NAN: none. */
+double error_kind_of(const fm_error_kind *kind, const fm_case_row *result);
+
+#endif
