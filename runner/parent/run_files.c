@@ -80,11 +80,27 @@ static bool is_unkept(const run_state *run, size_t case_index, kept_kind kind)
            access(path, F_OK) != 0;
 }
 
+/* Whether any case of the plan has files of this kind. */
+static bool keeps_once(const run_state *run, kept_kind kind)
+{
+    char path[FM_PATH_MAX_BYTES];
+    for (size_t i = 0; i < run->plan->count; i++)
+        if (run_kept_path(path, run, i, kind, NULL) == FM_OK && path[0] != '\0')
+            return true;
+    return run->plan->count == 0;
+}
+
 void run_tell_unkept(run_state *run)
 {
     char sentence[256];
     for (int kind = 0; kind < KEPT_KIND_COUNT; kind++) {
         size_t count = 0, first = 0;
+        if ((run->desc->kept & 1u << kind) != 0 && !keeps_once(run, (kept_kind)kind)) {
+            snprintf(sentence, sizeof sentence, "--keep %s keeps nothing: %s", kept_names[kind],
+                     kind == KEPT_FRAMES ? "no case is a sequence (feed frames)"
+                                         : "all cases are sequences, which have frames instead");
+            progress_tell_always(&run->progress, run->desc->directory, sentence);
+        }
         for (size_t i = 0; i < run->plan->count; i++)
             if (is_unkept(run, i, (kept_kind)kind) && count++ == 0)
                 first = i;
