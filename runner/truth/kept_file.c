@@ -106,13 +106,16 @@ static bool copy_all(FILE *out, FILE *in)
     return ferror(in) == 0;
 }
 
+/* Truths are many and made anew where they are gone, so they are not flushed to disk until they are
+ * kept (truth_keep). */
 static bool write_head(kept_writer *writer)
 {
     const size_t count = (size_t)writer->header.list_count + 1;
+    const bool is_flushed = writer->header.kind != KEPT_TRUTH;
     return fseeko(writer->out, 0, SEEK_SET) == 0 &&
            fwrite(&writer->header, sizeof writer->header, 1, writer->out) == 1 &&
            fwrite(writer->offsets, sizeof *writer->offsets, count, writer->out) == count &&
-           fflush(writer->out) == 0 && fsync(fileno(writer->out)) == 0;
+           fflush(writer->out) == 0 && (!is_flushed || fsync(fileno(writer->out)) == 0);
 }
 
 /* Closes the file, and moves it into place if nothing failed. */

@@ -51,6 +51,17 @@ void truth_close(fm_truth *truth)
     free(truth);
 }
 
+/* Flushed first: what has its name is whole, also after the machine went down. */
+static bool link_flushed(const char *path, const char *partial, const char *keep)
+{
+    int fd = -1;
+    if (file_open(&fd, NULL, path, NULL) != FM_OK)
+        return false;
+    const bool is_flushed = fsync(fd) == 0;
+    close(fd);
+    return is_flushed && link(path, partial) == 0 && rename(partial, keep) == 0;
+}
+
 fm_status truth_keep(const char *keep, const char *path, const fm_truth *truth, fm_error *err)
 {
     fm_text partial = { 0 };
@@ -61,7 +72,7 @@ fm_status truth_keep(const char *keep, const char *path, const fm_truth *truth, 
         return fm_fail(err, FM_NO_MEMORY, "%s: no memory for its name", keep);
     fm_status status = file_check_replaceable(keep, err);
     unlink(partial.bytes);
-    if (status == FM_OK && (link(path, partial.bytes) != 0 || rename(partial.bytes, keep) != 0))
+    if (status == FM_OK && !link_flushed(path, partial.bytes, keep))
         status = text_write_file(keep, truth->map, truth->map_bytes, err);
     unlink(partial.bytes); /* two names of one file stay two where one is renamed to the other */
     text_free(&partial);
