@@ -29,7 +29,8 @@ typedef struct fm_technique_job {
     const char *truth; /* file: written by the baseline, else read */
     const char *image; /* file for the first frame that is not the baseline's; "": none */
     const char *keep;  /* file for the wrong tiles of all frames and the pictures of the first wrong
-                          ones (truth/kept_file.h), TECHNIQUE_KEPT_BYTES at most; NULL or "": none */
+                          ones (truth/kept_file.h); NULL or "": none */
+    uint64_t kept_bytes; /* most of these pictures; 0: TECHNIQUE_KEPT_BYTES */
 } fm_technique_job;
 
 #define TECHNIQUE_KEPT_BYTES (128ull << 20)

@@ -110,6 +110,7 @@ static void count_wrong_pixels(technique_run *run, const uint32_t *drawn, const 
 void technique_keep_frame(technique_run *run, uint64_t wrong_tiles)
 {
     const uint64_t pixels = (uint64_t)run->sequence->width_px * run->sequence->height_px;
+    const uint64_t most = run->job->kept_bytes > 0 ? run->job->kept_bytes : TECHNIQUE_KEPT_BYTES;
     uint32_t wrong = 0;
     if (run->kept_tiles == NULL)
         return;
@@ -119,8 +120,7 @@ void technique_keep_frame(technique_run *run, uint64_t wrong_tiles)
         if (run->kept_tiles[tile].wrong_pixels > 0)
             run->kept_tiles[wrong++] = (kept_tile){ tile, run->kept_tiles[tile].wrong_pixels };
     kept_add_list(&run->kept, run->kept_tiles, wrong);
-    if (wrong == 0 ||
-        (run->kept.header.word_count + 2 * pixels) * sizeof(uint32_t) > TECHNIQUE_KEPT_BYTES)
+    if (wrong == 0 || (run->kept.header.word_count + 2 * pixels) * sizeof(uint32_t) > most)
         return;
     kept_add_words(&run->kept, tbr_image(run->gpu), pixels);
     kept_add_words(&run->kept, tbr_image(run->baseline), pixels);
