@@ -33,23 +33,46 @@ static bool set_fact(kept_case *of, kept_fact fact, const char *text, size_t len
     return true;
 }
 
+static void free_case(kept_case *of)
+{
+    for (int fact = 0; fact < KEPT_FACT_COUNT; fact++)
+        free(of->facts[fact]);
+}
+
+static bool has_room(kept_cases *cases)
+{
+    if (cases->count < cases->capacity)
+        return true;
+    const size_t capacity = cases->capacity > 0 ? 2 * cases->capacity : 16;
+    kept_case *more = realloc(cases->cases, capacity * sizeof *more);
+    if (more == NULL)
+        return false;
+    cases->cases = more;
+    cases->capacity = capacity;
+    return true;
+}
+
 /* The case of this id, which is a new one if it was not there; NULL: no memory. */
 static kept_case *add_case(kept_cases *cases, const char *id, size_t length)
 {
-    for (size_t i = 0; i < cases->count; i++)
-        if (strncmp(cases->cases[i].facts[KEPT_CASE_ID], id, length) == 0 &&
-            cases->cases[i].facts[KEPT_CASE_ID][length] == '\0')
-            return &cases->cases[i];
-    kept_case *more = realloc(cases->cases, (cases->count + 1) * sizeof *more);
-    if (more == NULL)
+    kept_case added = { .kinds = 0 };
+    if (!has_room(cases))
         return NULL;
-    cases->cases = more;
-    kept_case *added = &more[cases->count++];
-    *added = (kept_case){ .kinds = 0 };
     for (int i = 0; i < KEPT_FACT_COUNT; i++)
-        if (!set_fact(added, (kept_fact)i, id, i == KEPT_CASE_ID ? length : 0))
-            return NULL;
-    return added;
+        if (!set_fact(&added, (kept_fact)i, id, i == KEPT_CASE_ID ? length : 0))
+            goto out;
+    const size_t at = text_index_add(&cases->ids, added.facts[KEPT_CASE_ID], cases->count);
+    if (at == FM_TEXT_INDEX_NONE)
+        goto out;
+    if (at == cases->count) {
+        cases->cases[cases->count++] = added;
+        return &cases->cases[at];
+    }
+    free_case(&added);
+    return &cases->cases[at];
+out:
+    free_case(&added);
+    return NULL;
 }
 
 /* "ID.fragments"; others, such as what a killed run left half written, are nobody's. */
@@ -92,7 +115,6 @@ static fm_status read_folder(kept_cases *cases, const char *path, fm_error *err)
         return fm_fail(err, FM_NO_MEMORY, "%s: no memory for its files", path);
     if (cases->count == 0)
         return fm_fail(err, FM_INVALID, "%s: nothing is kept in it", path);
-    qsort(cases->cases, cases->count, sizeof *cases->cases, by_id);
     return FM_OK;
 }
 
@@ -115,16 +137,12 @@ static bool add_row(kept_cases *cases, const size_t columns[KEPT_FACT_COUNT], ch
     for (size_t i = 0; i < COLUMNS_MOST; i++)
         fields[i] = *line != '\0' ? csv_take_field(&line) : "";
     fields[COLUMNS_MOST] = "";
-    const char *id = fields[columns[KEPT_CASE_ID]];
+    const size_t at = text_index_find(&cases->ids, fields[columns[KEPT_CASE_ID]]);
     bool is_set = true;
-    for (size_t i = 0; i < cases->count; i++)
-        for (int fact = 0; strcmp(cases->cases[i].facts[KEPT_CASE_ID], id) == 0 && is_set &&
-                           fact < KEPT_FACT_COUNT;
-             fact++) {
-            const char *text = fields[columns[fact]];
-            if (fact != KEPT_CASE_ID)
-                is_set = set_fact(&cases->cases[i], (kept_fact)fact, text, strlen(text));
-        }
+    for (int fact = 0; at != FM_TEXT_INDEX_NONE && is_set && fact < KEPT_FACT_COUNT; fact++) {
+        const char *text = fields[columns[fact]];
+        is_set = set_fact(&cases->cases[at], (kept_fact)fact, text, strlen(text));
+    }
     return is_set;
 }
 
@@ -162,14 +180,18 @@ fm_status kept_cases_read(kept_cases *cases, const char *directory, fm_error *er
         status = read_folder(cases, path, err);
     if (status == FM_OK)
         status = path_join(path, directory, "summary.csv", err);
-    return status == FM_OK ? read_summary(cases, path, err) : status;
+    if (status == FM_OK)
+        status = read_summary(cases, path, err);
+    if (status == FM_OK)
+        qsort(cases->cases, cases->count, sizeof *cases->cases, by_id);
+    text_index_free(&cases->ids);
+    return status;
 }
 
 void kept_cases_free(kept_cases *cases)
 {
     for (size_t i = 0; i < cases->count; i++)
-        for (int fact = 0; fact < KEPT_FACT_COUNT; fact++)
-            free(cases->cases[i].facts[fact]);
+        free_case(&cases->cases[i]);
     free(cases->cases);
     *cases = (kept_cases){ 0 };
 }

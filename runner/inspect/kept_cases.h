@@ -3,6 +3,7 @@
 #define FM_KEPT_CASES_H
 
 #include "base/text.h"
+#include "base/text_index.h"
 #include "truth/kept_file.h"
 
 /* What is told of a case: columns of summary.csv. */
@@ -29,7 +30,8 @@ typedef struct kept_case {
 /* Starts as {0}. */
 typedef struct kept_cases {
     kept_case *cases; /* by their ids */
-    size_t count;
+    size_t count, capacity;
+    fm_text_index ids; /* while they are read */
 } kept_cases;
 
 /* What lies in DIRECTORY/kept. FM_INVALID: nothing was kept. FM_IO: a folder or summary.csv cannot
