@@ -7,6 +7,7 @@
 #include "cli/cli.h"
 #include "describe/describe.h"
 #include "devices.h"
+#include "inspect/dump.h"
 #include "worker/worker.h"
 
 static const struct {
@@ -21,6 +22,8 @@ static const struct {
       "the cases of a run and the estimated time; runs nothing" },
     { "run", "fragmark run", cli_run, "measures methods on scenes" },
     { "reproduce", "fragmark reproduce", cli_reproduce, "measures what figures of a paper show" },
+    { "dump", "fragmark dump", inspect_dump,
+      "fragments of a pixel, and what is wrong with them, from what a run kept" },
     { "record", "fragmark record", cli_record,
       "a scene for the simulated GPU from what an OpenGL program draws" },
     { "bundle", "fragmark bundle", cli_bundle,

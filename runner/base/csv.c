@@ -25,3 +25,26 @@ void csv_add_real(fm_text *text, double value)
     else if (!isnan(value))
         text_add(text, "%.9g", value);
 }
+
+char *csv_take_field(char **at)
+{
+    char *in = *at, *out = *at, *field = *at;
+    const bool is_quoted = *in == '"';
+    in += is_quoted;
+    while (*in != '\0' && (is_quoted ? *in != '"' || in[1] == '"' : *in != ',')) {
+        in += is_quoted && *in == '"'; /* a doubled quote is one */
+        *out++ = *in++;
+    }
+    in += is_quoted && *in == '"';
+    *at = *in == ',' ? in + 1 : in;
+    *out = '\0';
+    return field;
+}
+
+char *csv_line_end(char *at)
+{
+    bool is_quoted = false;
+    for (; *at != '\0' && (is_quoted || *at != '\n'); at++)
+        is_quoted ^= *at == '"';
+    return at;
+}

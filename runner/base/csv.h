@@ -1,5 +1,4 @@
-/* Fields of a CSV file as RFC 4180 has it. Reading is stricter than writing and is the reports'
- * own. */
+/* Fields of a CSV file as RFC 4180 has it. Strict reading is the reports' own. */
 #ifndef FM_CSV_H
 #define FM_CSV_H
 
@@ -11,5 +10,11 @@ void csv_add(fm_text *text, const char *field);
 /* Adds a number with nine digits, enough for a float; nothing for NAN, "inf" or "-inf" for an
  * infinity. */
 void csv_add_real(fm_text *text, double value);
+
+/* Of files that fragmark wrote itself, in place: the field at *at, without its quotes; *at moves
+ * behind its comma. Cuts what it passes. */
+char *csv_take_field(char **at);
+/* The end of the line at `at`: its '\n', or the NUL. */
+char *csv_line_end(char *at);
 
 #endif

@@ -12,7 +12,8 @@
 
 typedef struct fm_error {
     fm_status status;
-    bool is_own; /* a file that comes with fragmark failed: no plugin is to blame */
+    bool is_own; /* a file that comes with fragmark, or that a run keeps, failed: no plugin is to
+                    blame */
     char message[2048];
 } fm_error;
 

@@ -3,14 +3,12 @@
 #include "truth_capture.h"
 
 #include <inttypes.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "instance/instance.h"
 #include "scene/layers.h"
-#include "truth/truth_file.h"
+#include "truth/kept_file.h"
 #include "truth/truth_triangles.h"
 
 /* Records of one band: 128 MiB, what the smallest device binds in one buffer. */
@@ -50,7 +48,6 @@ typedef struct truth_run {
     bool is_known; /* in closed form, and that has not been wrong */
     bool by_host;  /* no stage, no instances */
     uint32_t n;
-    uint64_t nonempty;
     fm_error *err;
 } truth_run;
 
@@ -90,7 +87,6 @@ static fm_status count_fragments(truth_run *capture)
     for (uint64_t i = 0; i < capture->pixels && status == FM_OK; i++) {
         capture->offsets[i + 1] = capture->offsets[i] + capture->counts[i];
         capture->n = capture->counts[i] > capture->n ? capture->counts[i] : capture->n;
-        capture->nonempty += capture->counts[i] > 0;
     }
     return status;
 }
@@ -214,7 +210,17 @@ static fm_status fill_band(truth_run *capture, fm_instance *instance, const fm_b
     return status;
 }
 
-static fm_status store_fragments(truth_run *capture, truth_file *file)
+static void write_band(kept_writer *file, const truth_run *capture, const fm_band *band)
+{
+    const uint64_t base = capture->offsets[band->first];
+    const uint64_t end = (uint64_t)band->first + band->pixels;
+    for (uint64_t i = band->first; i < end; i++)
+        kept_add_list(file, capture->sorted + (capture->offsets[i] - base), capture->counts[i]);
+    if (capture->keeps_arrival)
+        kept_add_words(file, capture->arrival, (size_t)(capture->offsets[end] - base));
+}
+
+static fm_status store_fragments(truth_run *capture, kept_writer *file)
 {
     fm_instance *instance = NULL;
     fm_band band = { 0 };
@@ -225,10 +231,7 @@ static fm_status store_fragments(truth_run *capture, truth_file *file)
         if (status == FM_OK)
             status = fill_band(capture, instance, &band);
         if (status == FM_OK)
-            status = truth_file_add(
-                file, capture->sorted, capture->arrival,
-                (size_t)(capture->offsets[first + band.pixels] - capture->offsets[first]),
-                capture->err);
+            write_band(file, capture, &band);
     }
     instance_destroy(instance);
     return status;
@@ -262,27 +265,24 @@ static void release(truth_run *capture)
     free(capture->arrival);
 }
 
-static fm_status write_file(truth_run *capture, const char *partial)
+static fm_status write_file(truth_run *capture, const char *path)
 {
-    truth_file file = { .out = NULL };
+    kept_writer file = { .out = NULL };
+    const kept_header header = { .kind = KEPT_TRUTH,
+                                 .width_px = capture->scene->width_px,
+                                 .height_px = capture->scene->height_px,
+                                 .list_count = capture->pixels };
     fm_status status = count_fragments(capture);
-    const truth_header header = { .width_px = capture->scene->width_px,
-                                  .height_px = capture->scene->height_px,
-                                  .n = capture->n,
-                                  .has_arrival = capture->keeps_arrival,
-                                  .fragment_count = capture->offsets[capture->pixels],
-                                  .nonempty_pixels = capture->nonempty };
     if (status == FM_OK)
-        status = truth_file_open(&file, partial, &header, capture->offsets, capture->err);
+        status = kept_begin(&file, path, &header, capture->err);
     if (status == FM_OK)
         status = store_fragments(capture, &file);
-    return truth_file_close(&file, status, capture->err);
+    return kept_finish(&file, status, capture->err);
 }
 
 fm_status truth_capture(const char *path, fm_device *device, const fm_scene *scene, uint32_t feed,
                         const fm_shader_folders *folders, fm_error *err)
 {
-    char partial[FM_PATH_MAX_BYTES + 16];
     const bool by_host = feed == FM_FEED_TRIANGLES;
     /* Flat layers replay from the recipe; only other scenes need the order of arrival. */
     const bool is_flat = layers_are_flat(&scene->settings);
@@ -294,16 +294,11 @@ fm_status truth_capture(const char *path, fm_device *device, const fm_scene *sce
                           .is_known = is_flat && !by_host && !layers_may_tie(&scene->settings),
                           .by_host = by_host,
                           .err = err };
-    snprintf(partial, sizeof partial, "%s.partial", path);
     fm_status status = allocate(&capture);
     if (status == FM_OK && !by_host)
         status = stage_create(&capture.stage, device, scene, NULL, FM_FEED_RASTER, err);
     if (status == FM_OK)
-        status = write_file(&capture, partial);
-    if (status == FM_OK && rename(partial, path) != 0)
-        status = fm_fail(err, FM_IO, "%s: cannot be renamed", partial);
-    if (status != FM_OK)
-        unlink(partial);
+        status = write_file(&capture, path);
     release(&capture);
     return status;
 }

@@ -4,6 +4,7 @@
 #include "cli.h"
 #include "describe/describe.h"
 #include "model/outcome.h"
+#include "truth/kept_file.h"
 
 enum {
     KEY_METHOD = 256,
@@ -20,6 +21,7 @@ enum {
     KEY_NO_REPORT,
     KEY_RETRY,
     KEY_FRESH,
+    KEY_KEEP,
 };
 
 static const struct argp_option selection_options[] = {
@@ -46,6 +48,11 @@ static const struct argp_option running_options[] = {
     { "fresh", KEY_FRESH, NULL, 0,
       "measure rows anew whose program, driver, plugin or shaders changed since they were begun; "
       "without it such a run stops with exit code 7",
+      0 },
+    { "keep", KEY_KEEP, "WHAT,...", 0,
+      "keep of each case, in DIR/kept, what `fragmark dump` shows: fragments (those that the "
+      "method "
+      "handed over), truth (all of each pixel), frames (wrong tiles of sequences); nothing",
       0 },
     { "no-images", KEY_NO_IMAGES, NULL, 0, "keep no images", 0 },
     { "no-report", KEY_NO_REPORT, NULL, 0, "CSV files only; `fragmark report DIR` draws later", 0 },
@@ -139,12 +146,29 @@ static fm_status add_retried(uint32_t *retried, const char *name, fm_error *err)
                    nearest != NULL ? nearest : names[count - 1]);
 }
 
-static fm_status parse_retried(uint32_t *retried, const char *text, fm_error *err)
+static fm_status add_kept(uint32_t *kept, const char *name, fm_error *err)
+{
+    for (int i = 0; i < KEPT_KIND_COUNT; i++) {
+        if (strcmp(name, kept_names[i]) == 0) {
+            *kept |= 1u << i;
+            return FM_OK;
+        }
+    }
+    const char *nearest = text_nearest(name, kept_names, KEPT_KIND_COUNT);
+    return fm_fail(err, FM_INVALID, "--keep: '%s' cannot be kept; %s '%s'", name,
+                   nearest != NULL ? "the nearest is" : "there is",
+                   nearest != NULL ? nearest : kept_names[0]);
+}
+
+/* A list of words, each of which sets a bit. */
+static fm_status add_bits(uint32_t *bits, const char *text,
+                          fm_status (*add)(uint32_t *bits, const char *name, fm_error *err),
+                          fm_error *err)
 {
     fm_text_list names = { 0 };
     fm_status status = names_add_split(&names, text, err);
     for (size_t i = 0; i < names.count && status == FM_OK; i++)
-        status = add_retried(retried, names.items[i], err);
+        status = add(bits, names.items[i], err);
     text_list_free(&names);
     return status;
 }
@@ -156,7 +180,10 @@ static error_t parse_running(int key, char *text, struct argp_state *state)
     fm_error err = { 0 };
     switch (key) {
     case KEY_RETRY:
-        require(state, parse_retried(&arguments->retried, text, &err), &err);
+        require(state, add_bits(&arguments->retried, text, add_retried, &err), &err);
+        return 0;
+    case KEY_KEEP:
+        require(state, add_bits(&arguments->kept, text, add_kept, &err), &err);
         return 0;
     case 'o':
         if (text[0] == '\0' || strlen(text) >= FM_PATH_MAX_BYTES / 2)

@@ -70,6 +70,7 @@ typedef struct fm_arguments {
     uint32_t timeout_s;
     uint64_t memory_bytes, seed;
     uint32_t retried; /* statuses, as bits */
+    uint32_t kept;    /* kept_kind, as bits */
     bool has_seed, no_images, no_report, validation, no_timers, quiet, json, smoke, large, fresh;
 } fm_arguments;
 

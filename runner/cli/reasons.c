@@ -2,35 +2,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/csv.h"
 #include "cli.h"
 #include "model/outcome.h"
 
 enum { SUMMARY_MOST_BYTES = 64 << 20, REASONS_MOST = 8, REASON_BYTES = 600 };
 enum { COLUMN_STATUS = 2, COLUMN_MESSAGE, COLUMN_METHOD, COLUMNS_READ };
-
-/* Takes the next field out of a line, in place, and moves *at behind its comma. */
-static char *next_field(char **at)
-{
-    char *in = *at, *out = *at, *field = *at;
-    const bool is_quoted = *in == '"';
-    in += is_quoted;
-    while (*in != '\0' && (is_quoted ? *in != '"' || in[1] == '"' : *in != ',')) {
-        in += is_quoted && *in == '"'; /* a doubled quote is one */
-        *out++ = *in++;
-    }
-    in += is_quoted && *in == '"';
-    *at = *in == ',' ? in + 1 : in;
-    *out = '\0';
-    return field;
-}
-
-static char *line_end(char *at)
-{
-    bool is_quoted = false;
-    for (; *at != '\0' && (is_quoted || *at != '\n'); at++)
-        is_quoted ^= *at == '"';
-    return at;
-}
 
 /* What is told of a run: reasons come before notes, whatever the order of rows. */
 typedef struct sentences {
@@ -42,7 +19,7 @@ static void add_sentence(sentences *reasons, sentences *notes, char *line)
 {
     char sentence[REASON_BYTES], *fields[COLUMNS_READ];
     for (size_t i = 0; i < COLUMNS_READ; i++)
-        fields[i] = next_field(&line);
+        fields[i] = csv_take_field(&line);
     if (strcmp(fields[COLUMN_STATUS], case_status_name(FM_CASE_SKIPPED)) == 0 ||
         fields[COLUMN_MESSAGE][0] == '\0')
         return;
@@ -74,9 +51,9 @@ void cli_reasons(FILE *talk, const char *directory)
     snprintf(path, sizeof path, "%s/summary.csv", directory);
     if (text_read_file(&bytes, &count, path, SUMMARY_MOST_BYTES, &err) != FM_OK)
         return; /* the run itself has said what is wrong */
-    for (char *end = line_end(bytes); *end == '\n' && end[1] != '\0';) {
+    for (char *end = csv_line_end(bytes); *end == '\n' && end[1] != '\0';) {
         char *line = end + 1;
-        end = line_end(line);
+        end = csv_line_end(line);
         const char stop = *end;
         *end = '\0';
         add_sentence(&reasons, &notes, line);

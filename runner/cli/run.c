@@ -181,6 +181,7 @@ int cli_run_plan(const fm_arguments *arguments, const cli_run_desc *desc)
         .no_timers = arguments->no_timers,
         .no_images = arguments->no_images,
         .retried = arguments->retried,
+        .kept = arguments->kept,
         .is_fresh = arguments->fresh,
         .timeout_s = arguments->timeout_s,
         .memory_bytes = arguments->memory_bytes,

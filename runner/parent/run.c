@@ -170,6 +170,8 @@ static fm_status prepare(run_state *run, fm_error *err)
         status = results_write_summary(run->results, err);
     if (status == FM_OK)
         tell_continued(run);
+    if (status == FM_OK)
+        run_tell_unkept(run);
     return status;
 }
 

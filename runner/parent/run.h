@@ -28,6 +28,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "plan/plan.h"
+#include "truth/kept_file.h"
 
 typedef struct fm_run_desc {
     const char *directory; /* made; one that holds another run's journal is FM_INVALID */
@@ -37,6 +38,9 @@ typedef struct fm_run_desc {
     bool no_images;
     uint32_t retried;      /* statuses, as bits 1u << fm_case_status: rows of an earlier run that
                               have them are measured anew, and the old ones forgotten */
+    uint32_t kept;         /* what DIRECTORY/kept is to hold of each case, as bits 1u << kept_kind:
+                              ID.fragments, ID.truth, ID.frames (truth/kept_file.h). Of rows that an
+                              earlier run finished without, it is told how many lack which */
     bool is_fresh;         /* rows of other code than is here now are measured anew; else they are
                               refused */
     uint32_t timeout_s;    /* of one launch; 0 is 600 */

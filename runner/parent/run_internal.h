@@ -45,8 +45,14 @@ fm_status run_path(char path[FM_PATH_MAX_BYTES], const run_state *run, const cha
                    const char *name, const char *ending, fm_error *err);
 /* FM_INVALID: a folder cannot be made, or holds results that no journal belongs to. */
 fm_status run_make_folders(const run_state *run, fm_error *err);
-/* Writes that what the journal has of a case counts no more, and removes its images. */
+/* Writes that what the journal has of a case counts no more, and removes its images and what was
+ * kept. */
 fm_status run_forget(run_state *run, size_t case_index, fm_error *err);
+/* Where what is kept of a case lies; "": it has none of this kind, or it was not asked for. */
+fm_status run_kept_path(char path[FM_PATH_MAX_BYTES], const run_state *run, size_t case_index,
+                        kept_kind kind, fm_error *err);
+/* Tells of which finished rows nothing was kept, although it is asked for, and what no case has. */
+void run_tell_unkept(run_state *run);
 /* What only running launches need. Folders that hold more stay. */
 void run_remove_truths(const run_state *run);
 /* Those two folders, where they are empty. */

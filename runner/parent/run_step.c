@@ -113,12 +113,14 @@ fm_status run_measure(run_state *run, size_t case_index, uint32_t launch, fm_err
 {
     const fm_case *planned = &run->plan->cases[case_index];
     char truth[FM_PATH_MAX_BYTES], image[FM_PATH_MAX_BYTES] = "", k[FM_PATH_MAX_BYTES],
-                                   current[160];
+                                   current[160], kept[KEPT_KIND_COUNT][FM_PATH_MAX_BYTES];
     const size_t job = run->truths.of_case[case_index];
     fm_launch_outcome outcome;
     fm_status status = run_path(truth, run, "truth", run->truths.jobs[job].name, ".truth", err);
     if (status == FM_OK && launch == 0 && !run->desc->no_images && !planned->no_image)
         status = run_path(image, run, "images", planned->id, ".rgba32f", err);
+    for (int kind = 0; kind < KEPT_KIND_COUNT && status == FM_OK; kind++)
+        status = run_kept_path(kept[kind], run, case_index, (kept_kind)kind, err);
     if (status == FM_OK)
         status = journal_write(run->journal, FM_JOURNAL_BEGIN, planned->id, launch, NULL, err);
     if (status != FM_OK)
@@ -133,6 +135,8 @@ fm_status run_measure(run_state *run, size_t case_index, uint32_t launch, fm_err
     request.image = image;
     request.check = launch == 0;
     request.launch = launch;
+    for (int kind = 0; kind < KEPT_KIND_COUNT; kind++)
+        request.keep[kind] = launch == 0 ? kept[kind] : "";
     const run_attempt attempt = { .name = planned->id,
                                   .current = current,
                                   .request = &request,

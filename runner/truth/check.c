@@ -3,16 +3,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-static uint32_t depth_bits(const fm_fragment *fragment)
+uint32_t check_depth_bits(const fm_fragment *fragment)
 {
     uint32_t bits;
     memcpy(&bits, &fragment->depth, sizeof bits);
     return bits & 0x7FFFFFFFu; /* -0 is 0 */
 }
 
-static int compare(const fm_fragment *a, const fm_fragment *b)
+int check_compare(const fm_fragment *a, const fm_fragment *b)
 {
-    const uint32_t left = depth_bits(a), right = depth_bits(b);
+    const uint32_t left = check_depth_bits(a), right = check_depth_bits(b);
     if (left != right)
         return left > right ? 1 : -1;
     return (a->colour > b->colour) - (a->colour < b->colour);
@@ -20,14 +20,14 @@ static int compare(const fm_fragment *a, const fm_fragment *b)
 
 static int compare_for_sort(const void *a, const void *b)
 {
-    return compare(a, b);
+    return check_compare(a, b);
 }
 
 static uint64_t count_misordered(const fm_fragment *captured, uint32_t count)
 {
     uint64_t misordered = 0;
     for (uint32_t i = 1; i < count; i++)
-        misordered += depth_bits(&captured[i]) < depth_bits(&captured[i - 1]);
+        misordered += check_depth_bits(&captured[i]) < check_depth_bits(&captured[i - 1]);
     return misordered;
 }
 
@@ -38,9 +38,9 @@ static uint64_t count_missing(const fm_fragment *captured, uint32_t captured_cou
     uint64_t missing = 0;
     uint32_t at = 0;
     for (uint32_t i = 0; i < wanted; i++) {
-        while (at < captured_count && depth_bits(&captured[at]) < depth_bits(&truth[i]))
+        while (at < captured_count && check_depth_bits(&captured[at]) < check_depth_bits(&truth[i]))
             at++;
-        if (at < captured_count && depth_bits(&captured[at]) == depth_bits(&truth[i]))
+        if (at < captured_count && check_depth_bits(&captured[at]) == check_depth_bits(&truth[i]))
             at++;
         else
             missing++;
@@ -68,11 +68,11 @@ static uint64_t count_extra(const fm_fragment *captured, uint32_t captured_count
     uint64_t extra = 0;
     uint32_t first = 0, last = 0;
     for (uint32_t i = 0; i < captured_count; i++) {
-        const uint32_t depth = depth_bits(&captured[i]);
-        if (i == 0 || depth != depth_bits(&captured[i - 1])) {
-            while (first < truth_count && depth_bits(&truth[first]) < depth)
+        const uint32_t depth = check_depth_bits(&captured[i]);
+        if (i == 0 || depth != check_depth_bits(&captured[i - 1])) {
+            while (first < truth_count && check_depth_bits(&truth[first]) < depth)
                 first++;
-            for (last = first; last < truth_count && depth_bits(&truth[last]) == depth;)
+            for (last = first; last < truth_count && check_depth_bits(&truth[last]) == depth;)
                 last++;
             memset(used, 0, (last - first) * sizeof *used);
         }
@@ -85,7 +85,7 @@ static uint32_t most_ulps(const fm_fragment *captured, uint32_t count, const fm_
 {
     uint32_t most = 0;
     for (uint32_t i = 0; i < count; i++) {
-        const uint32_t a = depth_bits(&captured[i]), b = depth_bits(&truth[i]);
+        const uint32_t a = check_depth_bits(&captured[i]), b = check_depth_bits(&truth[i]);
         const uint32_t apart = a > b ? a - b : b - a;
         most = apart > most ? apart : most;
     }

@@ -23,10 +23,15 @@ typedef struct fm_truth {
     uint64_t map_bytes;
 } fm_truth;
 
-/* Maps a file that truth_capture wrote. FM_IO: it cannot be read, or is damaged; FM_NO_MEMORY.
- * truth_close also of NULL. */
+/* Maps a file that truth_capture wrote (kept_file.h). FM_IO: it cannot be read, or is damaged;
+ * FM_NO_MEMORY. truth_close also of NULL. */
 fm_status truth_open(fm_truth **truth, const char *path, fm_error *err);
 void truth_close(fm_truth *truth);
+
+/* The truth's own file gets a second name, which outlives the first; where the disk has no such
+ * names it is copied. keep: "" or NULL: nothing is done; path: what truth was opened from. FM_IO.
+ */
+fm_status truth_keep(const char *keep, const char *path, const fm_truth *truth, fm_error *err);
 
 /* Gives the memory of these pixels' fragments back, first to last, half open; the file keeps them:
  * a truth may be larger than memory. */

@@ -63,6 +63,7 @@ typedef struct fm_measure_desc {
     const fm_truth *truth;
     uint32_t frames, warmup;
     bool check;
+    const char *keep; /* file for the captured fragments (truth/kept_file.h); NULL or "": none */
 } fm_measure_desc;
 
 /* Fragments of a pixel that truth wants of a method: UINT32_MAX means all. */
@@ -73,6 +74,7 @@ uint32_t measure_places(const fm_method_desc *method, uint32_t k);
 /* What a timed image may be from its own fragments for rounding, n being the most of any pixel. */
 double measure_image_tolerance(uint32_t n);
 
+/* FM_IO with is_own: the fragments cannot be kept. */
 fm_status measure_case(fm_measurement *measurement, const fm_measure_desc *desc, fm_error *err);
 void measurement_free(fm_measurement *measurement);
 

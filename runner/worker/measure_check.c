@@ -5,6 +5,7 @@
 
 #include "measure_internal.h"
 #include "plugin/culling_apply.h"
+#include "truth/kept_file.h"
 #include "truth/reference.h"
 
 enum {
@@ -25,6 +26,7 @@ typedef struct checking {
     uint32_t (*counts)[2];  /* [band_pixels]: from the front, from the back */
     fm_fragment *pixel;     /* [slots]: one pixel's, in order */
     fm_ties *ties;
+    kept_writer *kept; /* NULL: fragments are not kept */
 } checking;
 
 /* Front ranks fill a pixel's slots from the start, back ranks from the end. */
@@ -40,6 +42,18 @@ static uint32_t gather(checking *check, uint32_t local)
     memcpy(check->pixel, row, front * sizeof *row);
     memcpy(check->pixel + front, row + check->slots - back, back * sizeof *row);
     return front + back;
+}
+
+/* Before the check sorts them. */
+static void keep_one(const checking *check, uint32_t local, uint32_t count)
+{
+    const uint64_t handed_over = (uint64_t)check->counts[local][0] + check->counts[local][1];
+    const uint64_t more = handed_over - count;
+    const uint32_t word = more < UINT32_MAX ? (uint32_t)more : UINT32_MAX;
+    if (check->kept == NULL)
+        return;
+    kept_add_list(check->kept, check->pixel, count);
+    kept_add_words(check->kept, &word, 1);
 }
 
 static void check_image(checking *check, uint64_t pixel, const fm_range *range)
@@ -61,6 +75,7 @@ static void check_one(checking *check, uint64_t pixel, uint32_t local)
     const fm_fragment *truth = &check->truth->fragments[first];
     const bool is_open = ties_are_open(truth, all, wanted);
     fm_range range;
+    keep_one(check, local, count);
     composite_pixel(range.low, check->pixel, count);
     memcpy(range.high, range.low, sizeof range.high);
     check_pixel(sums, check->pixel, count, truth, all, wanted); /* sorts them */
@@ -136,6 +151,28 @@ static fm_status create_checking(checking *check, const fm_measure_desc *desc, f
     return stage_create_capture(check->stage, check->band_pixels, check->slots, err);
 }
 
+/* No plugin is to blame for a file of the run. */
+static fm_status own(fm_status status, fm_error *err)
+{
+    if (status == FM_IO && err != NULL)
+        err->is_own = true;
+    return status;
+}
+
+static fm_status begin_keeping(checking *check, kept_writer *kept, const char *path, fm_error *err)
+{
+    const kept_header header = { .kind = KEPT_FRAGMENTS,
+                                 .width_px = check->truth->width_px,
+                                 .height_px = check->truth->height_px,
+                                 .wanted = check->wanted,
+                                 .list_count =
+                                     (uint64_t)check->truth->width_px * check->truth->height_px };
+    if (path == NULL || path[0] == '\0')
+        return FM_OK;
+    check->kept = kept;
+    return own(kept_begin(kept, path, &header, err), err);
+}
+
 fm_status measure_check_fragments(fm_measurement *measurement, const fm_measure_desc *desc,
                                   fm_error *err)
 {
@@ -145,6 +182,7 @@ fm_status measure_check_fragments(fm_measurement *measurement, const fm_measure_
                        .wanted = measure_k(measurement, desc) };
     fm_instance_desc capture = *desc->method;
     fm_instance *instance = NULL;
+    kept_writer kept = { .out = NULL };
     fm_status status = create_checking(&check, desc, err);
     measurement->check.traits = desc->method->method->traits;
     capture.is_capture = true;
@@ -152,7 +190,13 @@ fm_status measure_check_fragments(fm_measurement *measurement, const fm_measure_
     if (status == FM_OK)
         status = instance_create(&instance, &capture, err);
     if (status == FM_OK)
+        status = begin_keeping(&check, &kept, desc->keep, err);
+    if (status == FM_OK)
         status = check_bands(&check, instance, err);
+    if (status == FM_OK)
+        status = own(kept_finish(&kept, FM_OK, err), err);
+    else
+        kept_finish(&kept, status, err);
     if (status == FM_OK && culling_is_applied(desc->method->method)) {
         instance_tell_fragments(instance, measurement->arrived); /* pools are sized by these */
         measure_bytes(measurement, instance, desc);

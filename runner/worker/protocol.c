@@ -64,6 +64,20 @@ static const char *job_of(const fm_request *request)
                                     : measure_job;
 }
 
+/* What is kept, by kept_kind. */
+static const char *const keep_fields[] = { "keep_fragments", "keep_truth", "keep_frames" };
+_Static_assert(sizeof keep_fields / sizeof keep_fields[0] == KEPT_KIND_COUNT, "one field a kind");
+
+static bool add_keep(json_t *object, const fm_request *request)
+{
+    bool is_added = object != NULL;
+    for (int i = 0; i < KEPT_KIND_COUNT && is_added; i++) {
+        const char *path = request->keep[i] != NULL ? request->keep[i] : "";
+        is_added = json_object_set_new(object, keep_fields[i], json_string(path)) == 0;
+    }
+    return is_added;
+}
+
 fm_status request_write(const char *path, const fm_request *request, fm_error *err)
 {
     json_t *object = json_pack(
@@ -73,7 +87,8 @@ fm_status request_write(const char *path, const fm_request *request, fm_error *e
         "no_timers", (int)request->no_timers, "feed", request->feed, "settings",
         settings_json(request->settings), "options", options_json(request), "truth", request->truth,
         "launch", (int)request->launch, "check", (int)request->check, "image", request->image);
-    char *text = object != NULL ? json_dumps(object, JSON_INDENT(1)) : NULL;
+    const bool is_whole = add_keep(object, request);
+    char *text = is_whole ? json_dumps(object, JSON_INDENT(1)) : NULL;
     const fm_status status =
         text != NULL ? text_write_file(path, text, strlen(text), err)
                      : fm_fail(err, FM_INVALID,
@@ -125,11 +140,23 @@ static const struct {
     const char *name;
     json_type type;
 } request_fields[] = {
-    { "job", JSON_STRING },     { "plugin", JSON_STRING }, { "floor", JSON_STRING },
-    { "common", JSON_STRING },  { "device", JSON_STRING }, { "validation", JSON_TRUE },
-    { "no_timers", JSON_TRUE }, { "feed", JSON_STRING },   { "settings", JSON_OBJECT },
-    { "options", JSON_OBJECT }, { "truth", JSON_STRING },  { "launch", JSON_INTEGER },
-    { "check", JSON_TRUE },     { "image", JSON_STRING },
+    { "job", JSON_STRING },
+    { "plugin", JSON_STRING },
+    { "floor", JSON_STRING },
+    { "common", JSON_STRING },
+    { "device", JSON_STRING },
+    { "validation", JSON_TRUE },
+    { "no_timers", JSON_TRUE },
+    { "feed", JSON_STRING },
+    { "settings", JSON_OBJECT },
+    { "options", JSON_OBJECT },
+    { "truth", JSON_STRING },
+    { "launch", JSON_INTEGER },
+    { "check", JSON_TRUE },
+    { "image", JSON_STRING },
+    { "keep_fragments", JSON_STRING },
+    { "keep_truth", JSON_STRING },
+    { "keep_frames", JSON_STRING },
 };
 
 /* The parent writes all of them; what lacks one was not written by it. */
@@ -199,6 +226,8 @@ fm_status request_read(fm_read_request *read, const char *path, fm_error *err)
         .no_timers = is_set(json, "no_timers"),
         .launch = (uint32_t)json_integer_value(json_object_get(json, "launch")),
     };
+    for (int i = 0; i < KEPT_KIND_COUNT; i++)
+        read->request.keep[i] = text_in(json, keep_fields[i]);
     status = read_settings(read, err);
     return status == FM_OK ? read_choices(read, err) : status;
 }

@@ -12,7 +12,9 @@
  *     "options": { "layout": "layer" },     the method's own, each with its value
  *     "truth": "path of the truth file", "launch": 0,
  *     "check": true,                        capture and compare all fragments
- *     "image": "path to write the image to, or empty" }
+ *     "image": "path to write the image to, or empty",
+     "keep_fragments": "path to write captured fragments to, or empty", "keep_truth": "truth",
+     "keep_frames": "wrong frames of a sequence" }
  *
  * The answer is written at the end; a worker that dies leaves none:
  *   { "status": "a word of model/outcome.h", "message": "",
@@ -51,6 +53,7 @@
 #include "model/descriptor.h"
 #include "model/outcome.h"
 #include "model/settings.h"
+#include "truth/kept_file.h"
 
 /* What a worker is asked. All borrowed. */
 typedef struct fm_request {
@@ -62,8 +65,9 @@ typedef struct fm_request {
     const fm_settings *settings;
     const fm_choice *choices; /* of the method's options; its first value for what is missing */
     size_t choice_count;
-    const char *truth; /* path of the truth file */
-    const char *image; /* path of the image to be written; "": none */
+    const char *truth;                 /* path of the truth file */
+    const char *image;                 /* path of the image to be written; "": none */
+    const char *keep[KEPT_KIND_COUNT]; /* the same for files of kept_file.h; NULL is "" */
     bool check, validation, no_timers;
     uint32_t launch;
 } fm_request;

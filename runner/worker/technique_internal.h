@@ -1,5 +1,5 @@
 /* What the files behind technique_job.h share; nobody else includes it. From below:
- *   technique_truth.c    the baseline's tiles: made, read, and compared with
+ *   technique_truth.c    the baseline's tiles: made, read, compared with, and kept where wrong
  *   technique_error.c    how far the wrong frames are from the baseline's
  *   technique_metrics.c  counts, cycles and energy of a sequence as metrics
  *   technique_job.c      the run of a sequence */
@@ -11,6 +11,7 @@
 #include "simulator/models/energy.h"
 #include "simulator/tbr.h"
 #include "technique_job.h"
+#include "truth/kept_file.h"
 
 /* The baseline's images: a hash for each tile of each frame. */
 typedef struct sequence_truth_header {
@@ -46,6 +47,8 @@ typedef struct technique_run {
     tbr *baseline; /* once a frame was wrong, to draw it */
     technique_errors errors;
     uint64_t image_hash; /* of the frames so far */
+    kept_writer kept;
+    kept_tile *kept_tiles; /* [tiles]: of one frame; NULL: nothing is kept */
     double seconds;
 } technique_run;
 
@@ -58,6 +61,13 @@ fm_status technique_truth_read(technique_run *run, fm_error *err);
 void technique_truth_add(const sequence_truth *truth, const tbr *gpu, uint32_t frame);
 /* How many tiles of the frame that the GPU has drawn are not the truth's. */
 uint64_t technique_wrong_tiles(const sequence_truth *truth, const tbr *gpu, uint32_t frame);
+
+/* Begins the file of job->keep, if that is given. technique_keep_end in any case. */
+fm_status technique_keep_begin(technique_run *run, fm_error *err);
+/* The next frame; of one with wrong tiles the baseline has drawn its own. */
+void technique_keep_frame(technique_run *run, uint64_t wrong_tiles);
+/* As kept_finish. */
+fm_status technique_keep_end(technique_run *run, fm_status status, fm_error *err);
 
 /* technique_error.c */
 /* Adds a wrong frame's errors; of the first of them, the picture and its truth are written. FM_IO:

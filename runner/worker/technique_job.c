@@ -26,17 +26,21 @@ static fm_status check_frame(uint64_t *wrong, technique_run *run, const fm_frame
                              uint32_t index, fm_error *err)
 {
     fm_technique_outcome *outcome = &run->outcome;
+    fm_status status = FM_OK;
     *wrong = 0;
     if (run->job->method == NULL)
         technique_truth_add(&run->truth, run->gpu, index);
     else
         *wrong = technique_wrong_tiles(&run->truth, run->gpu, index);
-    if (*wrong == 0)
-        return FM_OK;
-    if (outcome->wrong_frames++ == 0)
-        outcome->first_wrong_frame = index;
-    outcome->wrong_tiles += *wrong;
-    return technique_compare_frame(run, frame, index, err);
+    if (*wrong > 0) {
+        if (outcome->wrong_frames++ == 0)
+            outcome->first_wrong_frame = index;
+        outcome->wrong_tiles += *wrong;
+        status = technique_compare_frame(run, frame, index, err);
+    }
+    if (status == FM_OK)
+        technique_keep_frame(run, *wrong);
+    return status;
 }
 
 static void count_frame(technique_run *run, uint32_t index, uint64_t wrong)
@@ -149,7 +153,10 @@ fm_status technique_job_run(json_t *answer, fm_technique_outcome *outcome,
     technique_run run = { .job = job, .samples = json_array(), .metrics = json_object() };
     fm_status status = start(&run, err);
     if (status == FM_OK)
+        status = technique_keep_begin(&run, err);
+    if (status == FM_OK)
         status = run_frames(&run, err);
+    status = technique_keep_end(&run, status, err);
     if (status == FM_OK)
         status = finish(answer, &run, err);
     *outcome = run.outcome;

@@ -28,7 +28,12 @@ typedef struct fm_technique_job {
     size_t choice_count;
     const char *truth; /* file: written by the baseline, else read */
     const char *image; /* file for the first frame that is not the baseline's; "": none */
+    const char *keep;  /* file for the wrong tiles of all frames and the pictures of the first wrong
+                          ones (truth/kept_file.h); NULL or "": none */
+    uint64_t kept_bytes; /* most of these pictures; 0: TECHNIQUE_KEPT_BYTES */
 } fm_technique_job;
+
+#define TECHNIQUE_KEPT_BYTES (128ull << 20)
 
 /* What became of a sequence. */
 typedef struct fm_technique_outcome {
@@ -40,8 +45,8 @@ typedef struct fm_technique_outcome {
 } fm_technique_outcome;
 
 /* FM_UNSUPPORTED: a sequence or a model that cannot be had.
- * FM_INVALID: a frame that the simulator does not take, or what a hook answers. FM_IO: the truth or
- * the image cannot be read or written.
+ * FM_INVALID: a frame that the simulator does not take, or what a hook answers. FM_IO: the truth,
+ * the image or what is kept cannot be read or written.
  */
 fm_status technique_job_run(json_t *answer, fm_technique_outcome *outcome,
                             const fm_technique_job *job, fm_error *err);

@@ -79,3 +79,56 @@ uint64_t technique_wrong_tiles(const sequence_truth *truth, const tbr *gpu, uint
         wrong += hash_tile(truth, gpu, tile) != truth_hashes(truth, frame)[tile];
     return wrong;
 }
+
+fm_status technique_keep_begin(technique_run *run, fm_error *err)
+{
+    _Static_assert((int)KEPT_TILE_SIDE == (int)FM_TILE_SIDE,
+                   "a tile of the file is one of the GPU");
+    const kept_header header = { .kind = KEPT_FRAMES,
+                                 .width_px = run->sequence->width_px,
+                                 .height_px = run->sequence->height_px,
+                                 .list_count = run->sequence->frame_count };
+    if (run->job->keep == NULL || run->job->keep[0] == '\0')
+        return FM_OK;
+    run->kept_tiles = calloc(tbr_tile_count(run->gpu), sizeof *run->kept_tiles);
+    if (run->kept_tiles == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "%s: no memory for its tiles", run->job->keep);
+    return kept_begin(&run->kept, run->job->keep, &header, err);
+}
+
+/* Pixels of each tile in which the two pictures differ. */
+static void count_wrong_pixels(technique_run *run, const uint32_t *drawn, const uint32_t *right)
+{
+    const uint32_t width = run->sequence->width_px, across = tbr_tiles_across(run->gpu);
+    memset(run->kept_tiles, 0, tbr_tile_count(run->gpu) * sizeof *run->kept_tiles);
+    for (uint32_t y = 0; y < run->sequence->height_px; y++)
+        for (uint32_t x = 0; x < width; x++)
+            run->kept_tiles[y / FM_TILE_SIDE * across + x / FM_TILE_SIDE].wrong_pixels +=
+                drawn[(size_t)y * width + x] != right[(size_t)y * width + x];
+}
+
+void technique_keep_frame(technique_run *run, uint64_t wrong_tiles)
+{
+    const uint64_t pixels = (uint64_t)run->sequence->width_px * run->sequence->height_px;
+    const uint64_t most = run->job->kept_bytes > 0 ? run->job->kept_bytes : TECHNIQUE_KEPT_BYTES;
+    uint32_t wrong = 0;
+    if (run->kept_tiles == NULL)
+        return;
+    if (wrong_tiles > 0)
+        count_wrong_pixels(run, tbr_image(run->gpu), tbr_image(run->baseline));
+    for (uint32_t tile = 0; wrong_tiles > 0 && tile < tbr_tile_count(run->gpu); tile++)
+        if (run->kept_tiles[tile].wrong_pixels > 0)
+            run->kept_tiles[wrong++] = (kept_tile){ tile, run->kept_tiles[tile].wrong_pixels };
+    kept_add_list(&run->kept, run->kept_tiles, wrong);
+    if (wrong == 0 || (run->kept.header.word_count + 2 * pixels) * sizeof(uint32_t) > most)
+        return;
+    kept_add_words(&run->kept, tbr_image(run->gpu), pixels);
+    kept_add_words(&run->kept, tbr_image(run->baseline), pixels);
+}
+
+fm_status technique_keep_end(technique_run *run, fm_status status, fm_error *err)
+{
+    free(run->kept_tiles);
+    run->kept_tiles = NULL;
+    return kept_finish(&run->kept, status, err);
+}

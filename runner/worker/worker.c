@@ -203,6 +203,7 @@ static fm_status frames_job(launch_job *job)
         .choice_count = job->request->choice_count,
         .truth = job->request->truth,
         .image = job->request->image,
+        .keep = job->request->keep[KEPT_FRAMES],
     };
     fm_status status = open_device(job);
     if (status == FM_OK)
@@ -265,7 +266,8 @@ static fm_status measure(launch_job *job)
                                    .truth = job->truth,
                                    .frames = job->settings.frames,
                                    .warmup = job->settings.warmup,
-                                   .check = job->request->check };
+                                   .check = job->request->check,
+                                   .keep = job->request->keep[KEPT_FRAGMENTS] };
     return measure_case(&job->measurement, &desc, &job->error);
 }
 
@@ -332,6 +334,9 @@ static fm_status measure_job(launch_job *job)
         job->stage->hull_cache = job->hull;
         status = run_method(job);
     }
+    if (status == FM_OK)
+        status = truth_keep(job->request->keep[KEPT_TRUTH], job->request->truth, job->truth,
+                            &job->error);
     if (status == FM_OK)
         status = image_files_write(job->request->image, job->measurement.image,
                                    job->measurement.truth_image, &job->error);

@@ -34,7 +34,9 @@ expect_incomplete "a folder at the truth's path"
 rmdir "${truth[0]}" "$work/out/images/$id.rgba32f"
 head -c 100 "$work/kept" >"${truth[0]}"
 expect_incomplete "a truth file that is cut off"
-{ printf 'fmtruth1\1\0\0\0\1\0\0\0'; head -c 40 /dev/zero; } >"${truth[0]}" # one pixel, no fragment
+# a truth of one pixel without a fragment: kind, width and height, then as many zeros but one list
+{ printf 'fmkept1\0\1\0\0\0\1\0\0\0\1\0\0\0'; head -c 12 /dev/zero
+    printf '\1'; head -c 47 /dev/zero; } >"${truth[0]}"
 expect_incomplete "the truth of another scene"
 
 # finish WHAT: the same command, and the case is ok

@@ -34,7 +34,7 @@ check version_is_told 0 "fragmark " "$program" --version
 check unknown_command_names_the_nearest 2 "the nearest is 'run'" "$program" rum
 check unknown_list_names_the_nearest 2 "the nearest is 'methods'" "$program" list methds
 check unknown_option_is_a_usage_error 2 "--metod" "$program" run --metod kb
-for command in list doctor plan run reproduce report; do
+for command in list doctor plan run reproduce report dump; do
     check "help_of_${command}_tells_exit_codes" 0 "Exit codes" "$program" "$command" --help
 done
 check help_of_run_has_the_axes 0 "pixel_density" "$program" run --help

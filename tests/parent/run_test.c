@@ -211,7 +211,7 @@ static void run_measures_anew_what_is_to_be_retried(void **state)
     fake_plan fake;
     fm_run_result result;
     fm_error err = { 0 };
-    char directory[96], image[160];
+    char directory[96], image[160], kept[160];
     open_with_worker(&fake, ids, 2);
     assert_int_equal(run_well(&fake).failed, 3);
     const size_t samples = count_in_file(&fake, "out/samples.csv", ",frame_ms,");
@@ -220,6 +220,10 @@ static void run_measures_anew_what_is_to_be_retried(void **state)
     snprintf(directory, sizeof directory, "%s/out", fake.folder);
     snprintf(image, sizeof image, "%s/images/%s.rgba32f", directory, fake.cases[3].id);
     assert_int_equal(text_write_file(image, "old", 3, NULL), FM_OK);
+    snprintf(kept, sizeof kept, "%s/kept", directory);
+    assert_int_equal(mkdir(kept, 0777), 0);
+    snprintf(kept, sizeof kept, "%s/kept/%s.fragments", directory, fake.cases[3].id);
+    assert_int_equal(text_write_file(kept, "old", 3, NULL), FM_OK);
     const fm_run_desc desc = { .directory = directory,
                                .timeout_s = 20,
                                .retried = 1u << FM_CASE_CRASH | 1u << FM_CASE_WRONG_IMAGE,
@@ -228,6 +232,7 @@ static void run_measures_anew_what_is_to_be_retried(void **state)
     assert_int_equal(result.forgotten, 3);
     assert_int_equal(result.ok, 2); /* a, silent */
     assert_int_not_equal(access(image, F_OK), 0);
+    assert_int_not_equal(access(kept, F_OK), 0);
     assert_int_equal(count_in_file(&fake, "calls", "a "), 2);
     assert_int_equal(count_in_file(&fake, "calls", "unlike "), 4);
     assert_int_equal(count_in_file(&fake, "out/samples.csv", ",frame_ms,"), samples + 4);

@@ -5,7 +5,7 @@
 
 #include "kit/scene_kit.h"
 #include "scene/layers.h"
-#include "truth/truth_file.h"
+#include "truth/kept_file.h"
 
 #define SMALL "width_px=37 height_px=23 pixel_density=0.7 "
 
@@ -217,17 +217,17 @@ enum { FILE_PIXELS = 12 };
 /* 4 x 3 px, i fragments in pixel i, and their ranks of arrival. */
 static void make_file(truth_bytes *file)
 {
-    truth_header header = { .magic = "fmtruth",
-                            .width_px = 4,
-                            .height_px = 3,
-                            .n = FILE_PIXELS - 1,
-                            .has_arrival = 1,
-                            .nonempty_pixels = FILE_PIXELS - 1 };
+    kept_header header = { .magic = "fmkept1",
+                           .kind = KEPT_TRUTH,
+                           .width_px = 4,
+                           .height_px = 3,
+                           .n = FILE_PIXELS - 1,
+                           .list_count = FILE_PIXELS,
+                           .nonempty = FILE_PIXELS - 1 };
     uint64_t offsets[FILE_PIXELS + 1] = { 0 };
     for (uint32_t i = 0; i < FILE_PIXELS; i++)
         offsets[i + 1] = offsets[i] + i;
-    header.fragment_count = offsets[FILE_PIXELS];
-    header.magic[7] = '1';
+    header.item_count = header.word_count = offsets[FILE_PIXELS];
     *file = (truth_bytes){ .path = "/tmp/fm-truth-XXXXXX" };
     memcpy(file->bytes, &header, sizeof header);
     memcpy(file->bytes + sizeof header, offsets, sizeof offsets);
@@ -301,23 +301,28 @@ static void damage(size_t offset, uint64_t value, size_t bytes)
 static void truth_open_refuses_damaged_headers(void **state)
 {
     (void)state;
-    damage(offsetof(truth_header, magic), 'F', 1);
-    damage(offsetof(truth_header, width_px), 5, 4);
-    damage(offsetof(truth_header, width_px), UINT32_MAX, 4);
-    damage(offsetof(truth_header, height_px), 0, 4);
-    damage(offsetof(truth_header, has_arrival), 0, 4);
-    damage(offsetof(truth_header, fragment_count), UINT64_MAX, 8);
-    damage(offsetof(truth_header, fragment_count), 1, 8);
+    damage(offsetof(kept_header, magic), 'F', 1);
+    damage(offsetof(kept_header, width_px), 5, 4);
+    damage(offsetof(kept_header, width_px), UINT32_MAX, 4);
+    damage(offsetof(kept_header, height_px), 0, 4);
+    damage(offsetof(kept_header, kind), KEPT_FRAGMENTS, 4);
+    damage(offsetof(kept_header, kind), KEPT_KIND_COUNT, 4);
+    damage(offsetof(kept_header, reserved), 1, 4);
+    damage(offsetof(kept_header, word_count), 0, 8);
+    damage(offsetof(kept_header, word_count), UINT64_MAX, 8);
+    damage(offsetof(kept_header, item_count), UINT64_MAX, 8);
+    damage(offsetof(kept_header, item_count), 1, 8);
+    damage(offsetof(kept_header, list_count), UINT64_MAX, 8);
 }
 
 static void truth_open_refuses_offsets_that_lead_astray(void **state)
 {
     (void)state;
-    damage(sizeof(truth_header), 1, 8);                       /* the first is not 0 */
-    damage(sizeof(truth_header) + 8 * 5, UINT64_MAX / 16, 8); /* beyond the fragments */
-    damage(sizeof(truth_header) + 8 * 5, 0, 8);               /* falling */
-    damage(sizeof(truth_header) + 8 * FILE_PIXELS, 65, 8);    /* the last is not F */
-    damage(offsetof(truth_header, n), 3, 4);                  /* a pixel has more than n */
+    damage(sizeof(kept_header), 1, 8);                       /* the first is not 0 */
+    damage(sizeof(kept_header) + 8 * 5, UINT64_MAX / 16, 8); /* beyond the fragments */
+    damage(sizeof(kept_header) + 8 * 5, 0, 8);               /* falling */
+    damage(sizeof(kept_header) + 8 * FILE_PIXELS, 65, 8);    /* the last is not F */
+    damage(offsetof(kept_header, n), 3, 4);                  /* a pixel has more than n */
 }
 
 static void truth_open_refuses_a_missing_file(void **state)

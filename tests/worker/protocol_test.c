@@ -34,6 +34,7 @@ static void request_comes_back_as_it_was_written(void **state)
                                  .choice_count = 1,
                                  .truth = "t.truth",
                                  .image = "",
+                                 .keep = { [KEPT_FRAGMENTS] = "kept/7.fragments" },
                                  .no_timers = true,
                                  .launch = 3 };
     close(mkstemp(path));
@@ -44,6 +45,9 @@ static void request_comes_back_as_it_was_written(void **state)
     assert_string_equal(read.request.plugin, "a/a.so");
     assert_string_equal(read.request.device, "vulkan:0");
     assert_int_equal(read.request.launch, 3);
+    assert_string_equal(read.request.keep[KEPT_FRAGMENTS], "kept/7.fragments");
+    assert_string_equal(read.request.keep[KEPT_TRUTH], "");
+    assert_string_equal(read.request.keep[KEPT_FRAMES], "");
     assert_memory_equal(read.request.settings, &settings, sizeof settings);
     assert_int_equal(read.request.choice_count, 1);
     assert_string_equal(read.request.choices[0].value, "tile");
@@ -55,7 +59,8 @@ static void request_comes_back_as_it_was_written(void **state)
     "{\"job\": " job ", \"plugin\": \"\", \"floor\": \"\", \"common\": \"\", \"device\": \"\", "   \
     "\"validation\": false, \"no_timers\": false, \"feed\": \"\", \"settings\": {" settings        \
     "}, \"options\": {" options "}, \"truth\": \"\", \"launch\": " launch ", \"check\": " check    \
-    ", \"image\": \"\"}"
+    ", \"image\": \"\", \"keep_fragments\": \"\", \"keep_truth\": \"\", \"keep_frames\": "         \
+    "\"\"}"
 
 static fm_status read_text(const char *text, fm_error *err)
 {

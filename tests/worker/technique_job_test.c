@@ -216,6 +216,74 @@ static void right_sequence_has_no_error_and_no_picture(void **state)
     sequence_close(&made);
 }
 
+/* Runs both with a file of wrong frames. */
+static void judge_kept(kept_map *map, const test_sequence *made, uint64_t kept_bytes)
+{
+    char path[96];
+    fm_technique_outcome outcome;
+    fm_error err = { 0 };
+    snprintf(path, sizeof path, "%s.frames", made->stream);
+    json_decref(judge(&outcome, made, NULL));
+    const fm_technique_job job = { .method = &method,
+                                   .settings = &made->settings,
+                                   .truth = made->truth,
+                                   .image = "",
+                                   .keep = path,
+                                   .kept_bytes = kept_bytes };
+    json_t *answer = json_object();
+    if (technique_job_run(answer, &outcome, &job, &err) != FM_OK)
+        fail_msg("%s", err.message);
+    if (kept_open(map, path, &err) != FM_OK)
+        fail_msg("%s", err.message);
+    json_decref(answer);
+    unlink(path);
+}
+
+static void wrong_tiles_are_kept_with_both_pictures(void **state)
+{
+    (void)state;
+    test_sequence made = { .frames = 5, .extra = 2 };
+    kept_map map;
+    const uint32_t *pictures[2];
+    uint32_t apart = 0;
+    sequence_open(&made);
+    judge_kept(&map, &made, 0);
+    assert_int_equal(map.header->kind, KEPT_FRAMES);
+    assert_int_equal(map.header->list_count, 5);
+    assert_int_equal(map.header->item_count, 1);
+    assert_int_equal(map.offsets[2], 0); /* of frame 2 */
+    assert_int_equal(map.offsets[3], 1);
+    const kept_tile *tile = map.items;
+    assert_int_equal(tile->tile, 1);
+    assert_int_equal(tile->wrong_pixels, 64);
+    assert_true(kept_pictures(pictures, &map, 2));
+    for (uint32_t y = 4; y < 12; y++)
+        for (uint32_t x = 20; x < 28; x++)
+            apart += pictures[0][y * WIDTH + x] != pictures[1][y * WIDTH + x];
+    assert_int_equal(apart, 64);
+    assert_int_equal(pictures[0][0], pictures[1][0]);
+    kept_close(&map);
+    sequence_close(&made);
+}
+
+static void pictures_beyond_the_limit_are_not_kept(void **state)
+{
+    (void)state;
+    test_sequence made = { .frames = 5, .extra = 2 };
+    kept_map map;
+    const uint32_t *pictures[2];
+    sequence_open(&made);
+    judge_kept(&map, &made, 2 * 4 * WIDTH * HEIGHT - 1);
+    assert_int_equal(map.header->item_count, 1);
+    assert_int_equal(map.header->word_count, 0);
+    assert_false(kept_pictures(pictures, &map, 2));
+    kept_close(&map);
+    judge_kept(&map, &made, 2 * 4 * WIDTH * HEIGHT);
+    assert_true(kept_pictures(pictures, &map, 2));
+    kept_close(&map);
+    sequence_close(&made);
+}
+
 /* Counters leave the first frame out; whether anything was drawn is a question of all frames. */
 static void fragments_of_the_first_frame_count_as_drawn(void **state)
 {
@@ -362,6 +430,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_wrong_tile_within_a_sequence_shows),
         cmocka_unit_test(right_sequence_has_no_error_and_no_picture),
+        cmocka_unit_test(wrong_tiles_are_kept_with_both_pictures),
+        cmocka_unit_test(pictures_beyond_the_limit_are_not_kept),
         cmocka_unit_test(fragments_of_the_first_frame_count_as_drawn),
         cmocka_unit_test(image_hash_is_of_all_frames),
         cmocka_unit_test(truth_of_another_sequence_is_refused),
