@@ -14,7 +14,7 @@ static fm_status place_points(fm_place *places, const fm_overall *overall, fm_er
     if (contenders == NULL)
         return fm_fail(err, FM_NO_MEMORY, "chart of %zu methods", overall->point_count);
     for (size_t i = 0; i < overall->point_count; i++)
-        contenders[i] = (fm_contender){ overall->points[i].error, overall->points[i].ratio, i };
+        contenders[i] = (fm_contender){ 0, overall->points[i].error, overall->points[i].ratio, i };
     contenders_place(places, contenders, overall->point_count);
     free(contenders);
     return FM_OK;
@@ -76,12 +76,15 @@ static void fit_axes(fm_chart *chart, const fm_overall *overall, const fm_error_
     snprintf(chart->x.title, sizeof chart->x.title, "error: the worst of all, %s",
              fm_metrics[kind->metric].name);
     axis_fit(&chart->x, values, overall->point_count);
-    for (size_t i = 0; i < overall->point_count; i++)
-        values[i] = overall->points[i].ratio.value;
+    for (size_t i = 0; i < overall->point_count; i++) {
+        values[3 * i] = overall->points[i].ratio.value;
+        values[3 * i + 1] = end_of(overall->points[i].ratio.low);
+        values[3 * i + 2] = end_of(overall->points[i].ratio.high);
+    }
     chart->y = (fm_axis){ .title = "time over the cheapest exact one's, geometric mean",
                           .scale = FM_SCALE_LOG,
                           .length_px = plot_height_px };
-    axis_fit(&chart->y, values, overall->point_count);
+    axis_fit(&chart->y, values, 3 * overall->point_count);
 }
 
 static void add_texts(fm_chart *chart, const fm_overall *overall)
@@ -104,7 +107,7 @@ fm_status speed_error_overall_chart(fm_chart *chart, const fm_overall *overall,
     if (overall->point_count == 0)
         return fm_fail(err, FM_UNSUPPORTED, "no method is ok in all %zu workloads",
                        overall->workload_count);
-    double *values = calloc(overall->point_count, sizeof *values);
+    double *values = calloc(3 * overall->point_count, sizeof *values);
     fm_place *places = calloc(overall->point_count, sizeof *places);
     fm_status status = values != NULL && places != NULL
                            ? place_points(places, overall, err)

@@ -32,6 +32,20 @@ static fm_cheapest find(const fm_place *places, const fm_group *group, const fm_
     return best;
 }
 
+static bool has_one_n(const fm_place *places, const fm_group *group)
+{
+    double n = NAN;
+    for (size_t i = 0; i < group->count; i++) {
+        const double own = group->cases[i]->metric[FM_METRIC_N];
+        if (places[i].standing == FM_STANDING_NONE || isnan(own))
+            continue;
+        if (!isnan(n) && own != n)
+            return false;
+        n = own;
+    }
+    return true;
+}
+
 bool cheapest_make(fm_cheapest *cheapest, const fm_group *group, const fm_error_kind *kind)
 {
     fm_place *places = calloc(group->count + 1, sizeof *places);
@@ -39,8 +53,10 @@ bool cheapest_make(fm_cheapest *cheapest, const fm_group *group, const fm_error_
         free(places);
         return false;
     }
+    const bool is_fair = has_one_n(places, group);
     for (int i = 0; i < CHEAPEST_BOUNDS; i++)
-        cheapest[i] = find(places, group, kind, cheapest_bounds[i]);
+        cheapest[i] = is_fair ? find(places, group, kind, cheapest_bounds[i])
+                              : (fm_cheapest){ .ratio = { NAN, NAN, NAN } };
     for (int i = 0; i < CHEAPEST_BOUNDS && cheapest[0].row != NULL; i++) {
         const fm_span own = standing_time(cheapest[i].row);
         const fm_span exact = standing_time(cheapest[0].row);

@@ -36,10 +36,18 @@ fm_span span_ratio(const fm_span *a, const fm_span *b)
                       .high = b->low > 0 ? a->high / b->low : INFINITY };
 }
 
-static int compare_errors(const void *a, const void *b)
+static int compare_contenders(const void *a, const void *b)
 {
     const fm_contender *x = a, *y = b;
-    return (x->error > y->error) - (x->error < y->error);
+    const int order = (x->work > y->work) - (x->work < y->work);
+    return order != 0 ? order : (x->error > y->error) - (x->error < y->error);
+}
+
+/* How much a case has to do: n, where it is known. */
+static double work_of(const fm_case_row *result)
+{
+    const double n = result->metric[FM_METRIC_N];
+    return isnan(n) ? 0 : n;
 }
 
 static size_t collect(fm_contender *contenders, const fm_group *group, const fm_error_kind *kind)
@@ -47,8 +55,9 @@ static size_t collect(fm_contender *contenders, const fm_group *group, const fm_
     size_t count = 0;
     for (size_t i = 0; i < group->count; i++)
         if (competes(group->cases[i], kind))
-            contenders[count++] = (fm_contender){ error_kind_of(kind, group->cases[i]),
-                                                  standing_time(group->cases[i]), i };
+            contenders[count++] =
+                (fm_contender){ work_of(group->cases[i]), error_kind_of(kind, group->cases[i]),
+                                standing_time(group->cases[i]), i };
     return count;
 }
 
@@ -85,11 +94,14 @@ static fm_place place_of(const fm_contender *one, const rivals *r)
 
 void contenders_place(fm_place *places, fm_contender *contenders, size_t count)
 {
-    rivals r = { INFINITY, INFINITY, INFINITY, SIZE_MAX, SIZE_MAX };
-    qsort(contenders, count, sizeof *contenders, compare_errors);
+    const rivals none = { INFINITY, INFINITY, INFINITY, SIZE_MAX, SIZE_MAX };
+    rivals r = none;
+    qsort(contenders, count, sizeof *contenders, compare_contenders);
     for (size_t first = 0, next; first < count; first = next) {
-        for (next = first; next < count && contenders[next].error == contenders[first].error;
-             next++)
+        if (first == 0 || contenders[first].work != contenders[first - 1].work)
+            r = none;
+        for (next = first;
+             next < count && compare_contenders(&contenders[next], &contenders[first]) == 0; next++)
             add_rival(&r, &contenders[next]);
         for (size_t i = first; i < next; i++)
             places[contenders[i].index] = place_of(&contenders[i], &r);

@@ -30,8 +30,9 @@ const char *standing_name(fm_standing standing);
 typedef struct fm_span {
     double value, low, high;
 } fm_span;
-/* What is compared: any errors from 0, any times or ratios of such. */
+/* What is compared: any errors from 0, any times or ratios of such, of one amount of work. */
 typedef struct fm_contender {
+    double work; /* those of other values are no rivals */
     double error;
     fm_span time;
     size_t index; /* of its place */
@@ -39,7 +40,8 @@ typedef struct fm_contender {
 /* Sets the place of each contender; sorts them. In n log n. */
 void contenders_place(fm_place *places, fm_contender *contenders, size_t count);
 
-/* places: [group->count], in the order of its cases. false: no memory. */
+/* places: [group->count], in the order of its cases; cases of another n (layers made of r and k)
+ * are no rivals. false: no memory. */
 bool standings_make(fm_place *places, const fm_group *group, const fm_error_kind *kind);
 
 /* Whether a case has a time and an error that can be drawn; wrong images and controls, too. */

@@ -185,6 +185,26 @@ static void cheapest_for_each_error(void **state)
     assert_true(isnan(cheapest[3].ratio.value));
 }
 
+/* The same method with twice the layers is slower, and not dominated for that. */
+static void cases_of_another_n_are_no_rivals(void **state)
+{
+    (void)state;
+    static group_kit kit;
+    fm_place places[2];
+    fm_cheapest cheapest[CHEAPEST_BOUNDS];
+    static const fake fakes[] = { { "array", 8, 1, 1, 1, 0, false, false },
+                                  { "array", 16, 2, 2, 2, 0, false, false } };
+    fill(&kit, fakes, 2, "layers");
+    assert_true(standings_make(places, &kit.group, rmse()));
+    assert_int_equal(places[1].standing, FM_STANDING_DOMINATED);
+    kit.rows[0].metric[FM_METRIC_N] = 8;
+    kit.rows[1].metric[FM_METRIC_N] = 16;
+    assert_true(standings_make(places, &kit.group, rmse()));
+    assert_int_equal(places[1].standing, FM_STANDING_FRONTIER);
+    assert_true(cheapest_make(cheapest, &kit.group, rmse()));
+    assert_null(cheapest[0].row);
+}
+
 /* The lossy one takes 0.4 and 0.1 times as long as the exact one: 0.2 in the mean. */
 static void methods_over_two_scenes(void **state)
 {
@@ -256,6 +276,7 @@ int main(void)
         cmocka_unit_test(clearly_faster_than_all_as_exact_is_the_frontier),
         cmocka_unit_test(standings_follow_their_definition_for_random_cases),
         cmocka_unit_test(cheapest_for_each_error),
+        cmocka_unit_test(cases_of_another_n_are_no_rivals),
         cmocka_unit_test(methods_over_two_scenes),
         cmocka_unit_test(other_errors_may_be_chosen),
         cmocka_unit_test(table_has_what_is_charted),
