@@ -235,6 +235,8 @@ const fm_key fm_keys[] = {
       .fallback = "own", .help = "the map lies in the method's largest fixed buffer" },
     { "own_cull", FM_KEY_ENUM, QUIET, AT(own_cull), NAMES(own_cull_names),
       .fallback = "on", .help = "the method's own test before its lock" },
+    { "exposure", FM_KEY_REAL, QUIET, AT(exposure), .low = -16, .high = 16, .fallback = "0",
+      .unit = "stops", .help = "pictures are compared with colours times 2^E, alpha as it is" },
     { "model", FM_KEY_TEXT, FM_SCOPE_CASE, AT(model), .fallback = "",
       .help = "of the simulated GPU: \"NAME=VALUE ...\", names as in its parameters.yml" },
     { "launches", FM_KEY_UINT, FM_SCOPE_RUN, AT(launches), .low = 1, .high = 1000,

@@ -163,6 +163,7 @@ typedef struct fm_settings {
 
     /* method and run */
     const char *model; /* techniques: "NAME=VALUE ..." of simulator/models/parameters.yml */
+    double exposure;   /* stops; of pictures before they are compared: truth/reference.h */
     uint32_t k;        /* 0: the method does not use it */
     fm_lock lock;
     fm_release release;

@@ -55,10 +55,12 @@ static void forget_unused_method_keys(fm_settings *settings, const fm_method_des
             settings_set(settings, &fm_keys[i], fm_keys[i].fallback, NULL);
     if (!has_pixel_pass(method))
         settings->full_screen = FM_FULL_SCREEN_COMPUTE;
-    if (method->technique == NULL)
+    if (method->technique == NULL) {
         settings->model = "";
-    else
+    } else {
         settings->timers = FM_TIMERS_PASSES;
+        settings->exposure = 0; /* their frames hold bytes */
+    }
 }
 
 static fm_status make_settings(fm_settings *settings, const fm_plan_point *point, fm_error *err)

@@ -174,6 +174,8 @@ fm_status measure_check_images(fm_measurement *measurement, const fm_measure_des
     fm_status status = reference_create(&reference, desc->truth, measure_k(measurement, desc),
                                         measurement->image, err);
     if (status == FM_OK)
+        reference_expose(&reference, measurement->image, desc->method->settings->exposure);
+    if (status == FM_OK)
         status = image_compare(&measurement->error, measurement->image, reference.wanted, err);
     if (status == FM_OK)
         status = image_compare(&total, measurement->image, reference.all, err);
