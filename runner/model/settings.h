@@ -213,8 +213,8 @@ typedef struct fm_key {
     bool optional;       /* FM_KEY_UINT: "none" is a value too, kept as `absent` */
     uint32_t absent;
     const char *with; /* case keys: changes nothing while this other key is at its default */
-    bool is_quiet;    /* case keys: at its default it is not part of a case's id, which so stays
-                         what it was before there was the key */
+    bool is_quiet;    /* at its default it is not part of a case's id, or of a scene's hash, which
+                         so stays what it was before there was the key */
 } fm_key;
 
 enum { FM_MAX_KEYS = 128 };
