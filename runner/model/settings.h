@@ -60,8 +60,16 @@ typedef enum fm_depths {
     FM_DEPTHS_EQUAL,     /* all layers at 1/2 */
     FM_DEPTHS_STEP24,    /* (i + 1) 2^-24: what 24 bits can tell apart */
     FM_DEPTHS_ENDS,      /* the first at exactly 0, the last at exactly 1, others uniform */
+    FM_DEPTHS_STEP32,    /* (i + 1) 2^-32: what floats can tell apart near 0 */
+    FM_DEPTHS_DENORMAL,  /* (i + 1) 2^-149, below every normal float */
+    FM_DEPTHS_PROJECTED, /* distances in equal ratios between planes at 1 and 10^7, as a perspective
+                            projection gives them */
     FM_DEPTHS_COUNT
 } fm_depths;
+
+/* What the projection makes of distance. Reversed: 1 near and 0 far, where floats are finest; what
+ * methods see is scene/hand_on.h's. */
+typedef enum fm_depth { FM_DEPTH_NORMAL, FM_DEPTH_REVERSED, FM_DEPTH_COUNT } fm_depth;
 
 typedef enum fm_colours {
     FM_COLOURS_HASH,  /* a different colour for each layer */
@@ -128,6 +136,7 @@ typedef struct fm_settings {
     /* viewport */
     uint32_t width_px, height_px;
     fm_generator generator;
+    fm_depth depth;
 
     /* layers */
     uint32_t n; /* layers; 0 is an empty scene; FM_NOT_GIVEN until settings_finish. Meshes: 0 */
