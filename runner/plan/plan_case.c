@@ -193,7 +193,7 @@ static void refuse_choice(fm_text *why, const fm_case *made, const fm_plan_point
     }
 }
 
-static void refuse_culling(fm_text *why, const fm_case *made, const fm_plan_point *point)
+static void refuse_passes(fm_text *why, const fm_case *made, const fm_plan_point *point)
 {
     const fm_method_desc *method = point->entry->plugin->method;
     fm_error err;
@@ -204,7 +204,7 @@ static void refuse_culling(fm_text *why, const fm_case *made, const fm_plan_poin
 static void refuse_method(fm_text *why, const fm_case *made, const fm_plan_point *point)
 {
     static void (*const reasons[])(fm_text *, const fm_case *, const fm_plan_point *) = {
-        refuse_feed, refuse_place, refuse_k, refuse_choice, refuse_culling,
+        refuse_feed, refuse_place, refuse_k, refuse_choice, refuse_passes,
     };
     for (size_t i = 0; i < sizeof reasons / sizeof reasons[0] && why->length == 0; i++)
         reasons[i](why, made, point);
