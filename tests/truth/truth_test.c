@@ -17,9 +17,8 @@ static const char *const flat_depths[] = { "uniform",
                                            "ulp",
                                            "equal",
                                            "step24",
-                                           "ends",
-                                           "step32",
                                            "ends depth=reversed",
+                                           "step32",
                                            "projected depth=reversed" };
 static const char *const probabilities[] = { "0", "0.5", "1" };
 
