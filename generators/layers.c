@@ -10,6 +10,7 @@
 #include "scene/layers.h"
 
 static const uint64_t max_order_bytes = UINT64_C(2) << 30;
+static const double far_over_near = 1e7; /* of projected depths */
 enum { CLUSTERS = 8 };
 
 /* What random numbers are for: independent sequences of one seed. */
@@ -41,36 +42,42 @@ static fm_rect centred_rect(const fm_settings *s)
 }
 
 /* (i + 1) / 2^m, below 1 for all i < count: exact, as count < 2^24. */
-static float uniform_depth(uint32_t i, uint32_t count)
+static double uniform_depth(uint32_t i, uint32_t count)
 {
     int exponent = 0;
     while (count >> exponent != 0)
         exponent++;
-    return (float)ldexp((double)i + 1.0, -exponent);
+    return ldexp((double)i + 1.0, -exponent);
 }
 
 /* Steps of 2^-20 from the middle of each eighth. */
-static float clustered_depth(uint32_t i, uint32_t count)
+static double clustered_depth(uint32_t i, uint32_t count)
 {
     const uint64_t cluster = (uint64_t)i * CLUSTERS / count;
     const uint64_t first = (cluster * count + CLUSTERS - 1) / CLUSTERS;
-    return (float)((double)(2 * cluster + 1) / (2 * CLUSTERS) + ldexp((double)(i - first), -20));
+    return (double)(2 * cluster + 1) / (2 * CLUSTERS) + ldexp((double)(i - first), -20);
 }
 
-static float ulp_depth(uint32_t i)
+/* Neighbouring floats from 1/2 on. */
+static double ulp_depth(uint32_t i)
 {
-    const uint32_t half_bits = 0x3F000000u, bits = half_bits + i;
-    float depth;
-    memcpy(&depth, &bits, sizeof depth);
-    return depth;
+    return 0.5 + ldexp((double)i, -24);
 }
 
 /* Exactly 0, then as uniform, then exactly 1; one layer is at 0. */
-static float ends_depth(uint32_t i, uint32_t count)
+static double ends_depth(uint32_t i, uint32_t count)
 {
     if (i == 0)
-        return 0.0f;
-    return i + 1 == count ? 1.0f : uniform_depth(i, count);
+        return 0.0;
+    return i + 1 == count ? 1.0 : uniform_depth(i, count);
+}
+
+/* far (v - near) / (v (far - near)) of the distance v = far^((i + 1) / (count + 1)), near being 1.
+ */
+static double projected_depth(uint32_t i, uint32_t count)
+{
+    const double distance = pow(far_over_near, ((double)i + 1.0) / ((double)count + 1.0));
+    return far_over_near * (distance - 1.0) / (distance * (far_over_near - 1.0));
 }
 
 /* Uniform in [-1, 1]. */
@@ -94,42 +101,70 @@ static int compare_depths(const void *left, const void *right)
     return (a > b) - (a < b);
 }
 
+/* Of flat layers, before the projection is reversed. */
+static double flat_depth(fm_depths depths, uint32_t i, uint32_t n)
+{
+    switch (depths) {
+    case FM_DEPTHS_UNIFORM:
+        return uniform_depth(i, n);
+    case FM_DEPTHS_CLUSTERED:
+        return clustered_depth(i, n);
+    case FM_DEPTHS_COPLANAR:
+        return uniform_depth(i / 2, (n + 1) / 2);
+    case FM_DEPTHS_ULP:
+        return ulp_depth(i);
+    case FM_DEPTHS_EQUAL:
+        return 0.5;
+    case FM_DEPTHS_STEP24:
+        return ldexp((double)i + 1.0, -24);
+    case FM_DEPTHS_ENDS:
+        return ends_depth(i, n);
+    case FM_DEPTHS_STEP32:
+        return ldexp((double)i + 1.0, -32);
+    case FM_DEPTHS_DENORMAL:
+        return ldexp((double)i + 1.0, -149);
+    case FM_DEPTHS_PROJECTED:
+        return projected_depth(i, n);
+    case FM_DEPTHS_SLOPED:
+    case FM_DEPTHS_COUNT:
+        break;
+    }
+    return 0.0;
+}
+
+static void fill_sloped(fm_scene *scene)
+{
+    uint64_t state = sequence_start(scene->settings.seed, FOR_SLOPE);
+    for (uint32_t i = 0; i < scene->n; i++)
+        sloped_plane(&scene->layers[i], &state);
+    qsort(scene->layers, scene->n, sizeof *scene->layers, compare_depths);
+}
+
+/* A reversed projection has 1 - depth, rounded once: what is fine near 0 stays so at the far end.
+ */
+static void reverse_sloped(fm_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->n; i++) {
+        fm_layer *layer = &scene->layers[i];
+        layer->depth = (float)(1.0 - (double)layer->depth);
+        layer->slope_x = -layer->slope_x;
+        layer->slope_y = -layer->slope_y;
+    }
+}
+
 static void fill_depths(fm_scene *scene)
 {
-    const uint32_t n = scene->n;
-    uint64_t state = sequence_start(scene->settings.seed, FOR_SLOPE);
-    for (uint32_t i = 0; i < n; i++) {
-        switch (scene->settings.depths) {
-        case FM_DEPTHS_UNIFORM:
-            scene->layers[i].depth = uniform_depth(i, n);
-            break;
-        case FM_DEPTHS_CLUSTERED:
-            scene->layers[i].depth = clustered_depth(i, n);
-            break;
-        case FM_DEPTHS_COPLANAR:
-            scene->layers[i].depth = uniform_depth(i / 2, (n + 1) / 2);
-            break;
-        case FM_DEPTHS_ULP:
-            scene->layers[i].depth = ulp_depth(i);
-            break;
-        case FM_DEPTHS_SLOPED:
-            sloped_plane(&scene->layers[i], &state);
-            break;
-        case FM_DEPTHS_EQUAL:
-            scene->layers[i].depth = 0.5f;
-            break;
-        case FM_DEPTHS_STEP24:
-            scene->layers[i].depth = (float)ldexp((double)i + 1.0, -24);
-            break;
-        case FM_DEPTHS_ENDS:
-            scene->layers[i].depth = ends_depth(i, n);
-            break;
-        case FM_DEPTHS_COUNT:
-            break;
-        }
+    const bool is_reversed = scene->settings.depth == FM_DEPTH_REVERSED;
+    if (scene->settings.depths == FM_DEPTHS_SLOPED) {
+        fill_sloped(scene);
+        if (is_reversed)
+            reverse_sloped(scene);
+        return;
     }
-    if (scene->settings.depths == FM_DEPTHS_SLOPED)
-        qsort(scene->layers, n, sizeof *scene->layers, compare_depths);
+    for (uint32_t i = 0; i < scene->n; i++) {
+        const double depth = flat_depth(scene->settings.depths, i, scene->n);
+        scene->layers[i].depth = (float)(is_reversed ? 1.0 - depth : depth);
+    }
 }
 
 /* 0xBBGGRR, before alpha. */
@@ -206,7 +241,11 @@ static uint32_t max_layers(fm_depths depths)
     case FM_DEPTHS_EQUAL:
     case FM_DEPTHS_STEP24:
     case FM_DEPTHS_ENDS:
+    case FM_DEPTHS_STEP32:
+    case FM_DEPTHS_PROJECTED:
         return (1u << 24) - 1;
+    case FM_DEPTHS_DENORMAL:
+        return (1u << 23) - 1;
     case FM_DEPTHS_CLUSTERED:
         return CLUSTERS << 16;
     case FM_DEPTHS_ULP:

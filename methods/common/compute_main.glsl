@@ -14,7 +14,7 @@ void fm_feed_layer(uvec2 pixel, uint arrival)
     if (!fm_survives(pixel, layer))
         return;
 #endif
-    fm_take(pixel, fm_layers[layer].depth, fm_layers[layer].colour);
+    fm_take(pixel, fm_hand_on(fm_layers[layer].depth), fm_layers[layer].colour);
 }
 uvec2 fm_rect_pixel(uint i)
 {

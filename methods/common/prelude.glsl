@@ -6,6 +6,23 @@ uint fm_pixel_index(uvec2 pixel)
     return pixel.y * uint(FM_WIDTH) + pixel.x;
 }
 
+// Bits of the depth that methods see of a rasterised one: the same or, of a reversed projection (1 near, 0 far),
+// what grows from near to far and keeps all floats apart. runner/scene/hand_on.h has the reasons.
+uint fm_hand_on_bits(uint bits)
+{
+#if FM_DEPTH_REVERSED
+    bits = bits >= 0x3F800000u ? 0u : bits < 0x00800000u ? 0x3F800000u : 0x3FFFFFFFu - bits;
+#endif
+    return bits;
+}
+float fm_hand_on(float depth)
+{
+#if FM_DEPTH_REVERSED
+    depth = uintBitsToFloat(fm_hand_on_bits(floatBitsToUint(depth) & 0x7FFFFFFFu)); // -0 is 0
+#endif
+    return depth;
+}
+
 // A fragment as most methods keep it: 8 bytes. Bits of a depth >= 0 compare as the depth does.
 uvec2 fm_pack(float depth, uint colour)
 {

@@ -3,7 +3,7 @@ void main()
 {
     uvec2 pixel = uvec2(gl_FragCoord.xy);
     // As the depth test clamps it: interpolation may leave the range where a near plane cuts.
-    float depth = clamp(gl_FragCoord.z, 0.0, 1.0);
+    float depth = fm_hand_on(clamp(gl_FragCoord.z, 0.0, 1.0));
 #ifdef FM_PRIMITIVE
     fm_primitive = fm_in_instance * uint(FM_INSTANCE_TRIANGLES) + uint(gl_PrimitiveID);
 #endif

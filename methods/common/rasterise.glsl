@@ -4,6 +4,7 @@
 //   fm_set_up(t, part)                   false: covers no pixel
 //   fm_edges_at(t, corner)               of a block: inside is all three >= 0, + a x + b y from there
 //   fm_depth_bits(pixel, ...)            of a plane
+//   fm_nearest(least, most), fm_farthest(least, most)   of a part's z_least, z_most
 // FM_NEAR_WAYS true, defined before: near triangles have shorter ways to the same numbers. That pays where lanes
 // branch and the rest of a shader is long (measured: tile-k/README.md).
 #ifndef FM_NEAR_WAYS
@@ -258,11 +259,21 @@ bool fm_may_cover(fm_setup t, ivec3 edges, ivec2 size)
     return (most.x | most.y | most.z) >= 0;
 }
 
-// Bits of the depth at a pixel's centre; below 2^-126: 0. xy: corner 0.
+// Bits of the depth at a pixel's centre, as methods see it; rasterised below 2^-126: 0. xy: corner 0.
 uint fm_depth_bits(ivec2 pixel, vec2 xy, float z, float dz_dx, float dz_dy, float least, float most)
 {
     vec2 d = vec2(pixel * 256 + 128) - xy;
     precise float plane = z + (dz_dx * d.x + dz_dy * d.y);
     uint bits = floatBitsToUint(min(max(plane, least), most)) & 0x7FFFFFFFu;
-    return bits < 0x00800000u ? 0u : bits;
+    return fm_hand_on_bits(bits < 0x00800000u ? 0u : bits);
+}
+
+// Between which depths, as methods see them, a part's fragments lie: of its z_least and z_most.
+float fm_nearest(float least, float most)
+{
+    return FM_DEPTH_REVERSED != 0 ? fm_hand_on(most) : least;
+}
+float fm_farthest(float least, float most)
+{
+    return FM_DEPTH_REVERSED != 0 ? fm_hand_on(least) : most;
 }

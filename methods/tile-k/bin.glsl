@@ -49,7 +49,7 @@ uint bin_blocks(fm_setup t, uint pair, uint bucket, ivec2 first, ivec2 size)
 uint bin_part(fm_setup t, uint pair, ivec2 size, ivec2 each, ivec2 first_and_stride)
 {
     ivec2 corner = t.box.xy >> BLOCK_SHIFT, stretches = (size + each - 1) / each;
-    uint bucket = bucket_of(t.z_least), covered = 0u;
+    uint bucket = bucket_of(fm_nearest(t.z_least, t.z_most)), covered = 0u;
     int i = first_and_stride.x, count = stretches.x * stretches.y;
     FM_LOOP do {
         ivec2 at = ivec2(i % stretches.x, i / stretches.x) * each;

@@ -20,8 +20,8 @@ uint note_of(fm_setup t, ivec2 size, uint covered)
 {
     uvec2 block = uvec2(t.box.xy >> BLOCK_SHIFT);
     bool is_tiny = all(lessThanEqual(size, ivec2(2)));
-    return is_tiny ? (block.x + block.y * TILES_X) << NOTE_BLOCK | bucket_of(t.z_least) << NOTE_BUCKET | covered
-                   : NOTE_AGAIN;
+    uint bucket = bucket_of(fm_nearest(t.z_least, t.z_most));
+    return is_tiny ? (block.x + block.y * TILES_X) << NOTE_BLOCK | bucket << NOTE_BUCKET | covered : NOTE_AGAIN;
 }
 
 void count(uint triangle)

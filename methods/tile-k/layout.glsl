@@ -1,5 +1,5 @@
-// Bins: a tile of 8 x 8 pixels has TILE_BLOCKS blocks, each with 32 buckets of depth by a triangle's least
-// z. bins[] holds 33 words a block, from words_of(bin) on: while counting, each bucket's pairs; then where each
+// Bins: a tile of 8 x 8 pixels has TILE_BLOCKS blocks, each with 32 buckets of depth by a triangle's
+// nearest corner. bins[] holds 33 words a block, from words_of(bin) on: while counting, each bucket's pairs; then where each
 // bucket's next pair goes, and at the end where it ends; the last word is where the block's pairs begin.
 #include "tile-k/lanes.glsl"
 #include "tile-k/sizes.glsl"

@@ -228,7 +228,7 @@ uint scan(uint bin, uint from, uvec2 pixel)
             bool touches = look_at(chunk, pair, next, last, corner, open);
 #endif
             lane_triangle mine = set_up_lane(touches, corner, open);
-            reach = mine.is_there ? bucket_of(mine.z_most) : 0u;
+            reach = mine.is_there ? bucket_of(fm_farthest(mine.z_least, mine.z_most)) : 0u;
             scan_chunk(mine, pixel, corner);
         } while (chunk < end && may_go_on());
     }

@@ -35,12 +35,19 @@ static const char *const order_names[] = { [FM_ORDER_RANDOM] = "random",
 ONE_NAME_EACH(order_names, FM_ORDER_COUNT, fm_order);
 
 static const char *const depths_names[] = {
-    [FM_DEPTHS_UNIFORM] = "uniform",   [FM_DEPTHS_CLUSTERED] = "clustered",
-    [FM_DEPTHS_COPLANAR] = "coplanar", [FM_DEPTHS_ULP] = "ulp",
-    [FM_DEPTHS_SLOPED] = "sloped",     [FM_DEPTHS_EQUAL] = "equal",
-    [FM_DEPTHS_STEP24] = "step24",     [FM_DEPTHS_ENDS] = "ends"
+    [FM_DEPTHS_UNIFORM] = "uniform",    [FM_DEPTHS_CLUSTERED] = "clustered",
+    [FM_DEPTHS_COPLANAR] = "coplanar",  [FM_DEPTHS_ULP] = "ulp",
+    [FM_DEPTHS_SLOPED] = "sloped",      [FM_DEPTHS_EQUAL] = "equal",
+    [FM_DEPTHS_STEP24] = "step24",      [FM_DEPTHS_ENDS] = "ends",
+    [FM_DEPTHS_STEP32] = "step32",      [FM_DEPTHS_DENORMAL] = "denormal",
+    [FM_DEPTHS_PROJECTED] = "projected"
 };
 ONE_NAME_EACH(depths_names, FM_DEPTHS_COUNT, fm_depths);
+
+static const char *const depth_names[] = {
+    [FM_DEPTH_NORMAL] = "normal", [FM_DEPTH_REVERSED] = "reversed"
+};
+ONE_NAME_EACH(depth_names, FM_DEPTH_COUNT, fm_depth);
 
 static const char *const colours_names[] = {
     [FM_COLOURS_HASH] = "hash", [FM_COLOURS_CYCLE] = "cycle", [FM_COLOURS_GREY] = "grey"
@@ -118,6 +125,7 @@ ONE_NAME_EACH(own_cull_names, FM_OWN_CULL_COUNT, fm_own_cull);
 #define FRAMES     BY(1u << FM_GENERATOR_FRAMES)
 #define STREAM     BY(1u << FM_GENERATOR_STREAM)
 #define ANY_FRAMES BY(FM_MAKES_FRAMES)
+#define FRAGMENTS  BY(~FM_MAKES_FRAMES)
 #define ANYWHERE   .low = -DBL_MAX, .high = DBL_MAX
 #define QUIET      .scope = FM_SCOPE_CASE, .is_quiet = true
 
@@ -129,6 +137,8 @@ const fm_key fm_keys[] = {
       .unit = "px", .help = "viewport" },
     { "generator", FM_KEY_ENUM, ANY, AT(generator), NAMES(generator_names),
       .fallback = "layers", .help = "what makes the scene" },
+    { "depth", FM_KEY_ENUM, FRAGMENTS, AT(depth), NAMES(depth_names), .fallback = "normal",
+      .is_quiet = true, .help = "of the projection; reversed: 1 near, 0 far, handed on near to far" },
     { "n", FM_KEY_UINT, LAYERS, AT(n), .low = 0, .high = 65536, .fallback = "none",
       .optional = true, .absent = FM_NOT_GIVEN, .help = "layers" },
     { "r", FM_KEY_UINT, LAYERS, AT(r), .low = 1, .high = 65536, .fallback = "none",
@@ -235,6 +245,8 @@ const fm_key fm_keys[] = {
       .fallback = "own", .help = "the map lies in the method's largest fixed buffer" },
     { "own_cull", FM_KEY_ENUM, QUIET, AT(own_cull), NAMES(own_cull_names),
       .fallback = "on", .help = "the method's own test before its lock" },
+    { "exposure", FM_KEY_REAL, QUIET, AT(exposure), .low = -16, .high = 16, .fallback = "0",
+      .unit = "stops", .help = "pictures are compared with colours times 2^E, alpha as it is" },
     { "model", FM_KEY_TEXT, FM_SCOPE_CASE, AT(model), .fallback = "",
       .help = "of the simulated GPU: \"NAME=VALUE ...\", names as in its parameters.yml" },
     { "launches", FM_KEY_UINT, FM_SCOPE_RUN, AT(launches), .low = 1, .high = 1000,

@@ -124,7 +124,8 @@ const fm_metric_info fm_metrics[FM_METRIC_COUNT] = {
     [FM_METRIC_FLIP] = { "flip", "FLIP", "",
         "what a person sees of the difference when the images are shown in turns, from 0 to 1 "
         "(Andersson et al. 2020), mean over the pixels of the viewport; in front of white, clamped to "
-        "[0,1], at 67 pixels per degree; in a sequence over all frames", CASE, LESS, ERRORS },
+        "[0,1], at 67 pixels per degree (with exposure: not clamped, HDR-FLIP, Andersson et al. 2021); "
+        "in a sequence over all frames", CASE, LESS, ERRORS },
     [FM_METRIC_FLIP_MEDIAN] = { "flip_median", "FLIP, weighted median", "",
         "half of the sum of all pixels' FLIP comes from pixels up to this value", CASE, LESS, ERRORS },
     [FM_METRIC_FLIP_P95] = { "flip_p95", "FLIP, 95 %", "", "95 % of the pixels have a FLIP up to this",

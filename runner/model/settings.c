@@ -347,8 +347,10 @@ void settings_scene_hash_with(char hash[17], const fm_settings *settings, uint64
         const fm_key *key = &fm_keys[i];
         if (!in_scene_hash(key, settings->generator))
             continue;
-        mixed = XXH64(key->name, strlen(key->name) + 1, mixed);
         settings_text(value, settings, key);
+        if (key->is_quiet && strcmp(value, key->fallback) == 0)
+            continue;
+        mixed = XXH64(key->name, strlen(key->name) + 1, mixed);
         if (key->type == FM_KEY_TEXT)
             mixed = XXH64(&mesh_digest, sizeof mesh_digest, mixed);
         else

@@ -60,8 +60,16 @@ typedef enum fm_depths {
     FM_DEPTHS_EQUAL,     /* all layers at 1/2 */
     FM_DEPTHS_STEP24,    /* (i + 1) 2^-24: what 24 bits can tell apart */
     FM_DEPTHS_ENDS,      /* the first at exactly 0, the last at exactly 1, others uniform */
+    FM_DEPTHS_STEP32,    /* (i + 1) 2^-32: what floats can tell apart near 0 */
+    FM_DEPTHS_DENORMAL,  /* (i + 1) 2^-149, below every normal float */
+    FM_DEPTHS_PROJECTED, /* distances in equal ratios between planes at 1 and 10^7, as a perspective
+                            projection gives them */
     FM_DEPTHS_COUNT
 } fm_depths;
+
+/* What the projection makes of distance. Reversed: 1 near and 0 far, where floats are finest; what
+ * methods see is scene/hand_on.h's. */
+typedef enum fm_depth { FM_DEPTH_NORMAL, FM_DEPTH_REVERSED, FM_DEPTH_COUNT } fm_depth;
 
 typedef enum fm_colours {
     FM_COLOURS_HASH,  /* a different colour for each layer */
@@ -128,6 +136,7 @@ typedef struct fm_settings {
     /* viewport */
     uint32_t width_px, height_px;
     fm_generator generator;
+    fm_depth depth;
 
     /* layers */
     uint32_t n; /* layers; 0 is an empty scene; FM_NOT_GIVEN until settings_finish. Meshes: 0 */
@@ -163,6 +172,7 @@ typedef struct fm_settings {
 
     /* method and run */
     const char *model; /* techniques: "NAME=VALUE ..." of simulator/models/parameters.yml */
+    double exposure;   /* stops; of pictures before they are compared: truth/reference.h */
     uint32_t k;        /* 0: the method does not use it */
     fm_lock lock;
     fm_release release;
@@ -212,8 +222,8 @@ typedef struct fm_key {
     bool optional;       /* FM_KEY_UINT: "none" is a value too, kept as `absent` */
     uint32_t absent;
     const char *with; /* case keys: changes nothing while this other key is at its default */
-    bool is_quiet;    /* case keys: at its default it is not part of a case's id, which so stays
-                         what it was before there was the key */
+    bool is_quiet;    /* at its default it is not part of a case's id, or of a scene's hash, which
+                         so stays what it was before there was the key */
 } fm_key;
 
 enum { FM_MAX_KEYS = 128 };

@@ -55,10 +55,12 @@ static void forget_unused_method_keys(fm_settings *settings, const fm_method_des
             settings_set(settings, &fm_keys[i], fm_keys[i].fallback, NULL);
     if (!has_pixel_pass(method))
         settings->full_screen = FM_FULL_SCREEN_COMPUTE;
-    if (method->technique == NULL)
+    if (method->technique == NULL) {
         settings->model = "";
-    else
+    } else {
         settings->timers = FM_TIMERS_PASSES;
+        settings->exposure = 0; /* their frames hold bytes */
+    }
 }
 
 static fm_status make_settings(fm_settings *settings, const fm_plan_point *point, fm_error *err)
@@ -191,7 +193,7 @@ static void refuse_choice(fm_text *why, const fm_case *made, const fm_plan_point
     }
 }
 
-static void refuse_culling(fm_text *why, const fm_case *made, const fm_plan_point *point)
+static void refuse_passes(fm_text *why, const fm_case *made, const fm_plan_point *point)
 {
     const fm_method_desc *method = point->entry->plugin->method;
     fm_error err;
@@ -202,7 +204,7 @@ static void refuse_culling(fm_text *why, const fm_case *made, const fm_plan_poin
 static void refuse_method(fm_text *why, const fm_case *made, const fm_plan_point *point)
 {
     static void (*const reasons[])(fm_text *, const fm_case *, const fm_plan_point *) = {
-        refuse_feed, refuse_place, refuse_k, refuse_choice, refuse_culling,
+        refuse_feed, refuse_place, refuse_k, refuse_choice, refuse_passes,
     };
     for (size_t i = 0; i < sizeof reasons / sizeof reasons[0] && why->length == 0; i++)
         reasons[i](why, made, point);

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "depth_check.h"
 #include "model/formats.h"
 #include "model/formula.h"
 
@@ -37,31 +38,6 @@ static fm_status check_room(const fm_method_desc *method, fm_error *err)
     return FM_OK;
 }
 
-fm_status culling_check(const fm_method_desc *method, const fm_settings *settings, uint32_t feed,
-                        fm_error *err)
-{
-    const uint64_t words =
-        (uint64_t)settings->width_px * settings->height_px * settings->cull_words;
-    if (settings->culling == FM_CULLING_NONE)
-        return FM_OK;
-    if (method->keeps != FM_KEEPS_K_NEAREST)
-        return fm_fail(err, FM_UNSUPPORTED,
-                       "culling = occupancy: the method keeps other fragments than the k nearest");
-    if (method->k_total != NULL)
-        return fm_fail(err, FM_UNSUPPORTED,
-                       "culling = occupancy: the method counts all fragments to choose its k");
-    if (feed != FM_FEED_RASTER)
-        return fm_fail(err, FM_UNSUPPORTED, "culling = occupancy: feed raster only");
-    if (settings->k > settings->cull_words * BUCKETS_PER_WORD)
-        return fm_fail(err, FM_UNSUPPORTED,
-                       "cull_words = %u: %u buckets are fewer than k = %u; nothing can be culled",
-                       settings->cull_words, settings->cull_words * BUCKETS_PER_WORD, settings->k);
-    if (words > UINT32_MAX)
-        return fm_fail(err, FM_UNSUPPORTED, "cull_words = %u: the map is over 2^32 words",
-                       settings->cull_words);
-    return check_room(method, err);
-}
-
 static bool is_multisampled(const fm_method_desc *method, const char *name, uint32_t k)
 {
     for (size_t i = 0; i < resource_count(method); i++) {
@@ -94,6 +70,45 @@ static void test_pass(fm_pass *pass, const fm_method_desc *method, const fm_sett
     pass->state.depth_stencil = BOUNDARY;
     pass->state.depth_test = FM_COMPARE_LESS_EQUAL;
     pass->state.early_tests = true;
+}
+
+/* Of the passes as they will be. The descriptor has room. */
+static fm_status check_depth(const fm_method_desc *method, const fm_settings *settings,
+                             fm_error *err)
+{
+    fm_status status = FM_OK;
+    for (size_t i = 0; i < pass_count(method) && status == FM_OK; i++) {
+        fm_pass pass = method->passes[i];
+        test_pass(&pass, method, settings);
+        status = depth_check_pass(&pass, settings, err);
+    }
+    return status;
+}
+
+fm_status culling_check(const fm_method_desc *method, const fm_settings *settings, uint32_t feed,
+                        fm_error *err)
+{
+    const uint64_t words =
+        (uint64_t)settings->width_px * settings->height_px * settings->cull_words;
+    if (settings->culling == FM_CULLING_NONE)
+        return depth_check(method, settings, err);
+    if (method->keeps != FM_KEEPS_K_NEAREST)
+        return fm_fail(err, FM_UNSUPPORTED,
+                       "culling = occupancy: the method keeps other fragments than the k nearest");
+    if (method->k_total != NULL)
+        return fm_fail(err, FM_UNSUPPORTED,
+                       "culling = occupancy: the method counts all fragments to choose its k");
+    if (feed != FM_FEED_RASTER)
+        return fm_fail(err, FM_UNSUPPORTED, "culling = occupancy: feed raster only");
+    if (settings->k > settings->cull_words * BUCKETS_PER_WORD)
+        return fm_fail(err, FM_UNSUPPORTED,
+                       "cull_words = %u: %u buckets are fewer than k = %u; nothing can be culled",
+                       settings->cull_words, settings->cull_words * BUCKETS_PER_WORD, settings->k);
+    if (words > UINT32_MAX)
+        return fm_fail(err, FM_UNSUPPORTED, "cull_words = %u: the map is over 2^32 words",
+                       settings->cull_words);
+    const fm_status status = check_room(method, err);
+    return status == FM_OK ? check_depth(method, settings, err) : status;
 }
 
 /* What formulas ask: the workload's runner. */

@@ -21,10 +21,10 @@
 #include "model/descriptor.h"
 #include "model/settings.h"
 
-/* FM_UNSUPPORTED, with the reason: the method keeps other fragments than the k nearest or chooses
- * k itself, the feed is not raster, there are fewer buckets than k, or the descriptor has no room.
- * FM_OK without culling.
- */
+/* FM_UNSUPPORTED, with the reason: a pass, as culling makes it, cannot be on a reversed projection
+ * (depth_check.h); with culling also: the method keeps other fragments than the k nearest or
+ * chooses k itself, the feed is not raster, there are fewer buckets than k, or the descriptor has
+ * no room. */
 fm_status culling_check(const fm_method_desc *method, const fm_settings *settings, uint32_t feed,
                         fm_error *err);
 

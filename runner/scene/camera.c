@@ -164,10 +164,13 @@ fm_status camera_matrix(double clip_from_space[16], const fm_settings *settings,
     const fm_status status = planes_set(&l, &v, settings, space, box, err);
     if (status != FM_OK)
         return status;
-    const double range = l.far / (l.near - l.far);
+    /* z / w is 0 at the near plane and 1 at the far one; reversed, 1 and 0. */
+    const bool is_reversed = settings->depth == FM_DEPTH_REVERSED;
+    const double begin = is_reversed ? l.far : l.near, end = is_reversed ? l.near : l.far;
+    const double range = end / (begin - end);
     set_row(clip_from_space, 0, v.right, l.scale_x, v.eye, 0.0);
     set_row(clip_from_space, 1, v.up, -l.scale_y, v.eye, 0.0);
-    set_row(clip_from_space, 2, v.back, range, v.eye, l.near * range);
+    set_row(clip_from_space, 2, v.back, range, v.eye, begin * range);
     set_row(clip_from_space, 3, v.back, -1.0, v.eye, 0.0);
     return FM_OK;
 }

@@ -2,26 +2,39 @@
 
 #include <assert.h>
 
+#include "hand_on.h"
+
 /* What follows from the distribution of depths. */
 static const struct {
-    bool is_sloped; /* a layer's depth varies over the viewport */
-    bool may_tie;   /* two layers may share a depth at a pixel, or swap places */
+    bool is_sloped;   /* a layer's depth varies over the viewport */
+    bool may_tie;     /* two layers may share a depth at a pixel, or swap places */
+    bool may_tie_far; /* the same, if the projection is reversed: 1 - depth is rounded */
+    bool is_denormal; /* a rasteriser may make 0 of them */
 } traits[] = {
-    [FM_DEPTHS_UNIFORM] = { false, false }, [FM_DEPTHS_CLUSTERED] = { false, false },
-    [FM_DEPTHS_COPLANAR] = { false, true }, [FM_DEPTHS_ULP] = { false, false },
-    [FM_DEPTHS_SLOPED] = { true, true },    [FM_DEPTHS_EQUAL] = { false, true },
-    [FM_DEPTHS_STEP24] = { false, false },  [FM_DEPTHS_ENDS] = { false, false },
+    [FM_DEPTHS_UNIFORM] = { .is_sloped = false },
+    [FM_DEPTHS_CLUSTERED] = { .is_sloped = false },
+    [FM_DEPTHS_COPLANAR] = { .may_tie = true },
+    [FM_DEPTHS_ULP] = { .is_sloped = false },
+    [FM_DEPTHS_SLOPED] = { .is_sloped = true, .may_tie = true },
+    [FM_DEPTHS_EQUAL] = { .may_tie = true },
+    [FM_DEPTHS_STEP24] = { .is_sloped = false },
+    [FM_DEPTHS_ENDS] = { .is_sloped = false },
+    [FM_DEPTHS_STEP32] = { .may_tie_far = true },
+    [FM_DEPTHS_DENORMAL] = { .may_tie = true, .is_denormal = true },
+    [FM_DEPTHS_PROJECTED] = { .may_tie = true },
 };
 _Static_assert(sizeof traits / sizeof traits[0] == FM_DEPTHS_COUNT, "one row a distribution");
 
 bool layers_are_flat(const fm_settings *settings)
 {
-    return settings->generator == FM_GENERATOR_LAYERS && !traits[settings->depths].is_sloped;
+    return settings->generator == FM_GENERATOR_LAYERS && !traits[settings->depths].is_sloped &&
+           !traits[settings->depths].is_denormal;
 }
 
 bool layers_may_tie(const fm_settings *settings)
 {
-    return settings->generator != FM_GENERATOR_LAYERS || traits[settings->depths].may_tie;
+    return settings->generator != FM_GENERATOR_LAYERS || traits[settings->depths].may_tie ||
+           (settings->depth == FM_DEPTH_REVERSED && traits[settings->depths].may_tie_far);
 }
 
 uint32_t layers_hash(uint32_t x, uint32_t y, uint32_t layer, uint64_t seed)
@@ -58,10 +71,12 @@ static uint32_t cell_of(uint32_t begin, uint32_t end, uint32_t px, uint32_t t)
     return i;
 }
 
-static float depth_at(const fm_layer *layer, double x_ndc, double y_ndc)
+static float depth_at(const fm_scene *scene, uint32_t index, double x_ndc, double y_ndc)
 {
-    return (float)((double)layer->depth + (double)layer->slope_x * x_ndc +
-                   (double)layer->slope_y * y_ndc);
+    const fm_layer *layer = &scene->layers[index];
+    return hand_on(scene->settings.depth,
+                   (float)((double)layer->depth + (double)layer->slope_x * x_ndc +
+                           (double)layer->slope_y * y_ndc));
 }
 
 static bool is_covered(const fm_rect *rect, uint32_t x, uint32_t y)
@@ -84,8 +99,8 @@ uint32_t layers_fragments(fm_fragment *fragments, const fm_scene *scene, uint32_
     for (uint32_t slot = 0; slot < scene->n; slot++) {
         const uint32_t layer = scene->order[(size_t)row * scene->n + slot];
         if (layers_lives(scene, x, y, layer))
-            fragments[count++] = (fm_fragment){ depth_at(&scene->layers[layer], x_ndc, y_ndc),
-                                                scene->layers[layer].colour };
+            fragments[count++] =
+                (fm_fragment){ depth_at(scene, layer, x_ndc, y_ndc), scene->layers[layer].colour };
     }
     return count;
 }
@@ -99,6 +114,7 @@ uint32_t layers_sorted(fm_fragment *fragments, const fm_scene *scene, uint32_t x
     for (uint32_t layer = 0; layer < scene->n; layer++)
         if (layers_lives(scene, x, y, layer))
             fragments[count++] =
-                (fm_fragment){ scene->layers[layer].depth, scene->layers[layer].colour };
+                (fm_fragment){ hand_on(scene->settings.depth, scene->layers[layer].depth),
+                               scene->layers[layer].colour };
     return count;
 }

@@ -12,8 +12,9 @@
 /* A survival threshold at which all fragments live, and no hash is computed. */
 #define LAYERS_ALL_LIVE 0xFFFFFFFFu
 
-/* Whether the settings make layers whose depth is the same at every pixel: then fragments are known
- * exactly, and feeds replay them from the recipe. False for all other generators. */
+/* Whether the settings make layers whose depth is the same at every pixel, and none that a
+ * rasteriser may flush to 0: then fragments are known exactly, and feeds replay them from the
+ * recipe. False for all other generators. */
 bool layers_are_flat(const fm_settings *settings);
 /* Whether two fragments of a pixel may share a depth, or swap places by rounding: then more than
  * one order of them is right. True for all generators but layers, of which nothing is known
@@ -35,8 +36,9 @@ uint32_t layers_hash(uint32_t x, uint32_t y, uint32_t layer, uint64_t seed);
 bool layers_lives(const fm_scene *scene, uint32_t x, uint32_t y, uint32_t layer);
 
 /* The fragments of one pixel in arrival order; room for scene->n. Returns how many. Flat layers are
- * exact; the depth of sloped ones is evaluated in double and rounded once, which a rasteriser's
- * interpolation may miss by 2 steps of 2^-24 (more ulp where depths are small). */
+ * exact, denormal ones before a rasteriser flushes them; the depth of sloped ones is evaluated in
+ * double and rounded once, which a rasteriser's interpolation may miss by 2 steps of 2^-24 (more
+ * ulp where depths are small). Depths are as methods see them (hand_on.h). */
 uint32_t layers_fragments(fm_fragment *fragments, const fm_scene *scene, uint32_t x, uint32_t y);
 /* The same fragments nearest first; only where layers do not tie. */
 uint32_t layers_sorted(fm_fragment *fragments, const fm_scene *scene, uint32_t x, uint32_t y);

@@ -20,7 +20,7 @@ typedef struct fm_vertex {
 _Static_assert(sizeof(fm_vertex) == 16, "attributes of mesh_vertex.glsl");
 
 /* One layer as methods/common/layers_vertex.glsl reads it. depth(x, y) = depth + slope_x * x +
- * slope_y * y, (x, y) the pixel's position in NDC. */
+ * slope_y * y, (x, y) the pixel's position in NDC; what is rasterised, which hand_on.h maps. */
 typedef struct fm_layer {
     float depth, slope_x, slope_y;
     uint32_t colour; /* RGBA8, premultiplied */
@@ -33,7 +33,7 @@ typedef struct fm_rect {
 
 /* One fragment of a pixel. */
 typedef struct fm_fragment {
-    float depth;     /* 0..1 */
+    float depth;     /* 0..1, as methods see it (hand_on.h) */
     uint32_t colour; /* RGBA8, premultiplied */
 } fm_fragment;
 

@@ -13,7 +13,8 @@
 #include "base/text.h"
 
 /* Texts for people; no settings. */
-static const char *const described[] = { "title", "source", "checksum", "licence", "stand_in_for" };
+static const char *const described[] = { "title",        "source", "checksum", "licence",
+                                         "stand_in_for", "why",    "answer" };
 enum { DESCRIBED_COUNT = sizeof described / sizeof described[0] };
 
 static fm_status no_memory(fm_error *err)

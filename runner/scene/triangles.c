@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "hand_on.h"
 #include "layers.h"
 
 /* Corners of the two triangles of a quad (0 1 / 2 3), as stage.c indexes them. */
@@ -78,11 +79,11 @@ void triangle_of(fm_clip_triangle *triangle, const fm_scene *scene, uint64_t num
 }
 
 /* z / w where the corner lies between the planes of near and far. */
-static void add_depth(fm_triangles_view *view, const fm_clip_corner *corner)
+static void add_depth(fm_triangles_view *view, const fm_scene *scene, const fm_clip_corner *corner)
 {
     if (!(corner->w > 0 && corner->z >= 0 && corner->z <= corner->w))
         return;
-    const float depth = corner->z / corner->w;
+    const float depth = hand_on(scene->settings.depth, corner->z / corner->w);
     view->nearest = fminf(view->nearest, depth);
     view->farthest = fmaxf(view->farthest, depth);
 }
@@ -96,7 +97,7 @@ fm_triangles_view triangles_view(const fm_scene *scene)
         view.clips =
             view.clips || raster_needs_clip(scene->width_px, scene->height_px, triangle.corners);
         for (int j = 0; j < 3; j++)
-            add_depth(&view, &triangle.corners[j]);
+            add_depth(&view, scene, &triangle.corners[j]);
     }
     if (view.nearest > view.farthest)
         return (fm_triangles_view){ .clips = view.clips, .nearest = 0, .farthest = 1 };

@@ -23,7 +23,8 @@ float triangles_ndc_step(uint32_t size_px);
 /* What a renderer knows from bounding boxes. */
 typedef struct fm_triangles_view {
     bool clips;              /* some triangle has to be clipped or dropped before it is set up */
-    float nearest, farthest; /* corners between the planes of near and far lie between these */
+    float nearest, farthest; /* corners between the planes of near and far lie between these, as
+                                methods see depths (hand_on.h) */
 } fm_triangles_view;
 
 fm_triangles_view triangles_view(const fm_scene *scene);

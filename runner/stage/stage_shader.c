@@ -54,6 +54,7 @@ void stage_define(fm_text *text, const fm_stage *stage, fm_geometry geometry)
     shader_define(text, "FM_WIDTH", scene->width_px);
     shader_define(text, "FM_HEIGHT", scene->height_px);
     shader_define(text, "FM_PIXELS", (uint64_t)scene->width_px * scene->height_px);
+    shader_define(text, "FM_DEPTH_REVERSED", scene->settings.depth == FM_DEPTH_REVERSED);
     if (geometry_is_cover(geometry)) {
         shader_define(text, "FM_COVER_IN_NDC", scene_is_layers(stage->scene));
         return;

@@ -66,19 +66,24 @@ static void set_nearest(float *nearest, const fm_range *range, const float *rgba
         nearest[c] = (float)fmin(fmax((double)rgba[c], range->low[c]), range->high[c]);
 }
 
-/* Squared distance of the first `wanted` from all, in truth's order. */
-static double truncation(const pixel_walk *walk, uint64_t pixel)
+/* Adds the squared distance of the first `wanted` from all, in truth's order. */
+static void add_truncation(double square[2], const pixel_walk *walk, uint64_t pixel)
 {
     const fm_truth *truth = walk->truth;
     const uint64_t first = truth->offsets[pixel], count = truth->offsets[pixel + 1] - first;
-    double kept[4], all[4], sum = 0;
+    double kept[4], all[4];
     if (count <= walk->wanted)
-        return 0;
+        return;
     composite_pixel(kept, &truth->fragments[first], walk->wanted);
     composite_pixel(all, &truth->fragments[first], count);
     for (int c = 0; c < 4; c++)
-        sum += (kept[c] - all[c]) * (kept[c] - all[c]);
-    return sum;
+        square[c / 3] += (kept[c] - all[c]) * (kept[c] - all[c]);
+}
+
+static void set_truncation(fm_reference *reference)
+{
+    reference->truncation_rmse =
+        sqrt(reference->truncation_square[0] + reference->truncation_square[1]);
 }
 
 fm_status reference_create(fm_reference *reference, const fm_truth *truth, uint32_t wanted,
@@ -86,7 +91,6 @@ fm_status reference_create(fm_reference *reference, const fm_truth *truth, uint3
 {
     const uint64_t pixels = (uint64_t)truth->width_px * truth->height_px;
     pixel_walk walk;
-    double sum = 0;
     *reference = (fm_reference){ 0 };
     if (image->width_px != truth->width_px || image->height_px != truth->height_px)
         return fm_fail(err, FM_INVALID, "an image of %u x %u px, and a truth of %u x %u px",
@@ -103,10 +107,12 @@ fm_status reference_create(fm_reference *reference, const fm_truth *truth, uint3
         if (truth->offsets[i + 1] - truth->offsets[i] > wanted)
             find_range(&range, &walk, i, UINT32_MAX);
         set_nearest(&reference->all->rgba[4 * i], &range, &image->rgba[4 * i]);
-        sum += truncation(&walk, i);
+        add_truncation(reference->truncation_square, &walk, i);
         forget_row(&walk, i);
     }
-    reference->truncation_rmse = sqrt(sum / (4.0 * (double)pixels));
+    for (int part = 0; part < 2; part++)
+        reference->truncation_square[part] /= 4.0 * (double)pixels;
+    set_truncation(reference);
     end(&walk);
     return status;
 }
@@ -116,6 +122,26 @@ void reference_free(fm_reference *reference)
     image_destroy(reference->wanted);
     image_destroy(reference->all);
     *reference = (fm_reference){ 0 };
+}
+
+static void expose(fm_image *image, double scale)
+{
+    const size_t values = 4 * (size_t)image->width_px * image->height_px;
+    for (size_t i = 0; i < values; i++)
+        if (i % 4 != 3)
+            image->rgba[i] = (float)((double)image->rgba[i] * scale);
+}
+
+void reference_expose(fm_reference *reference, fm_image *image, double stops)
+{
+    const double scale = exp2(stops);
+    if (!(fabs(stops) > 0)) /* the same pictures, to the bit */
+        return;
+    expose(image, scale);
+    expose(reference->wanted, scale);
+    expose(reference->all, scale);
+    reference->truncation_square[0] *= scale * scale;
+    set_truncation(reference);
 }
 
 /* The largest distance at one pixel of all images. */

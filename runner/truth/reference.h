@@ -1,6 +1,11 @@
 /* What an image is compared with: of all pictures that truth allows the nearest to it. Where no
  * depths tie there is one such picture; else each channel of a pixel has an interval (ties.h), and
- * an image's error is its distance to that: 0 within it. */
+ * an image's error is its distance to that: 0 within it.
+ *
+ * Exposure (the key of that name) is applied here and nowhere else, to both sides of a comparison:
+ * fragments stay RGBA8, and the finished pictures are scaled before any metric sees them. What is
+ * nearest stays so, since an interval's ends are scaled as what lies between them. Whether an exact
+ * method is right is judged without it. */
 #ifndef FM_REFERENCE_H
 #define FM_REFERENCE_H
 
@@ -12,6 +17,7 @@ typedef struct fm_reference {
     fm_image *all;    /* of all fragments; owned */
     /* rmse of the k nearest against all of them, both in truth's own order */
     double truncation_rmse;
+    double truncation_square[2]; /* the same, squared: the part of the colours, and of alpha */
 } fm_reference;
 
 /* wanted: how many fragments of a pixel, from the front; UINT32_MAX: all. image: as large as truth.
@@ -19,6 +25,10 @@ typedef struct fm_reference {
 fm_status reference_create(fm_reference *reference, const fm_truth *truth, uint32_t wanted,
                            const fm_image *image, fm_error *err);
 void reference_free(fm_reference *reference);
+
+/* Scales the colours of the reference's pictures and of the image that it was made for by
+ * 2^stops; alpha stays. The metrics of exposed pictures are those of high dynamic range. */
+void reference_expose(fm_reference *reference, fm_image *image, double stops);
 
 /* Images of one case. */
 typedef struct reference_images {

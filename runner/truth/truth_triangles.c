@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "scene/hand_on.h"
 #include "scene/layers.h"
 #include "scene/triangles.h"
 
@@ -31,6 +32,7 @@ static void store_fragment(void *context, uint32_t x, uint32_t y, float depth)
     if (pixel < band->first || pixel >= band->first + band->pixels ||
         !layers_lives(sink->scene, x, y, sink->triangle.layer))
         return;
+    depth = hand_on(sink->scene->settings.depth, depth);
     memcpy(&record.depth_bits, &depth, sizeof depth);
     band->records[band->cursors[pixel]++] = record;
 }

@@ -35,7 +35,7 @@ typedef struct fm_measurement {
     uint64_t redone_ns;     /* of the passes of the frames that were thrown away for it */
     bool gave_up;           /* a frame was lossy in all its tries there */
     uint64_t frames_lossy;  /* run again on a software rasteriser, since a lock gave up */
-    fm_image *image;        /* of the last timed frame; owned */
+    fm_image *image;        /* of the last timed frame, once it is checked exposed; owned */
     uint64_t *image_hashes; /* [distinct_images], of all timed frames, by the device; owned */
     uint32_t distinct_images;
     /* Of an exact method where depths tie: the largest distance of any timed frame's image from

@@ -222,11 +222,12 @@ static bool *covered_pixels(const fm_truth *truth)
 
 /* The picture of the wanted fragments, and that of all: of most exact methods they are one. */
 static fm_status compare_both(fm_measurement *measurement, const fm_reference *reference,
-                              const bool *covered, fm_error *err)
+                              const bool *covered, bool is_hdr, fm_error *err)
 {
     image_compare_desc compared = { .image = measurement->image,
                                     .reference = reference->wanted,
-                                    .covered = covered };
+                                    .covered = covered,
+                                    .is_hdr = is_hdr };
     fm_status status = image_compare(&measurement->error, &compared, err);
     const size_t pixels = (size_t)reference->all->width_px * reference->all->height_px;
     measurement->total_error = measurement->error;
@@ -245,8 +246,11 @@ fm_status measure_check_images(fm_measurement *measurement, const fm_measure_des
     if (status == FM_OK)
         status = reference_create(&reference, desc->truth, measure_k(measurement, desc),
                                   measurement->image, err);
+    const double exposure = desc->method->settings->exposure;
     if (status == FM_OK)
-        status = compare_both(measurement, &reference, covered, err);
+        reference_expose(&reference, measurement->image, exposure);
+    if (status == FM_OK)
+        status = compare_both(measurement, &reference, covered, exposure != 0, err);
     measurement->truncation_rmse = reference.truncation_rmse;
     measurement->truth_image = reference.wanted;
     reference.wanted = NULL;

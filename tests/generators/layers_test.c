@@ -1,46 +1,5 @@
-/* The layers generator: rectangle, depths, colours, orders, survival. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "generators/generate.h"
-#include "scene/layers.h"
-#include "scene/scene.h"
-
-static fm_settings layers_settings(uint32_t n)
-{
-    fm_settings s;
-    settings_default(&s);
-    s.generator = FM_GENERATOR_LAYERS;
-    s.width_px = 854;
-    s.height_px = 480;
-    s.n = n;
-    s.pixel_density = 0.25;
-    s.fragment_probability = 1.0;
-    s.tessellation = 4;
-    s.order = FM_ORDER_RANDOM;
-    s.depths = FM_DEPTHS_UNIFORM;
-    s.colours = FM_COLOURS_HASH;
-    s.alphas = FM_ALPHAS_CONSTANT;
-    s.alpha = 0.5;
-    s.seed = 7;
-    return s;
-}
-
-static fm_scene *create(const fm_settings *settings)
-{
-    fm_scene *scene = NULL;
-    fm_error err = { 0 };
-    if (scene_create(&scene, settings, &err) != FM_OK)
-        fail_msg("%s", err.message);
-    return scene;
-}
+/* The layers generator: rectangle, colours, orders, survival. */
+#include "layers_kit.h"
 
 static void assert_permutation(const uint32_t *row, uint32_t n)
 {
@@ -121,78 +80,6 @@ static void uniform_depths_are_exact_and_below_one(void **state)
         assert_true(scene->layers[counts[c] - 1].depth < 1.0f);
         scene_destroy(scene);
     }
-}
-
-static void ulp_depths_are_neighbours(void **state)
-{
-    (void)state;
-    fm_settings s = layers_settings(64);
-    s.depths = FM_DEPTHS_ULP;
-    fm_scene *scene = create(&s);
-    assert_true(scene->layers[0].depth == 0.5f);
-    for (uint32_t i = 1; i < 64; i++)
-        assert_true(nextafterf(scene->layers[i - 1].depth, 1.0f) == scene->layers[i].depth);
-    scene_destroy(scene);
-}
-
-static void step24_depths_are_multiples_of_two_to_the_minus_24(void **state)
-{
-    (void)state;
-    fm_settings s = layers_settings(1000);
-    s.depths = FM_DEPTHS_STEP24;
-    fm_scene *scene = create(&s);
-    for (uint32_t i = 0; i < 1000; i++)
-        assert_true(ldexp((double)scene->layers[i].depth, 24) == i + 1.0);
-    scene_destroy(scene);
-}
-
-static void ends_depths_start_at_zero_and_end_at_one(void **state)
-{
-    (void)state;
-    static const uint32_t counts[] = { 1, 2, 3, 8, 127, 128 };
-    for (size_t c = 0; c < sizeof counts / sizeof counts[0]; c++) {
-        const uint32_t n = counts[c];
-        fm_settings s = layers_settings(n);
-        s.depths = FM_DEPTHS_ENDS;
-        fm_scene *scene = create(&s);
-        assert_true(scene->layers[0].depth == 0.0f);
-        for (uint32_t i = 1; i < n; i++)
-            assert_true(scene->layers[i - 1].depth < scene->layers[i].depth);
-        assert_true(n == 1 || scene->layers[n - 1].depth == 1.0f);
-        scene_destroy(scene);
-    }
-}
-
-static void layers_share_depths_in_pairs_or_all_of_them(void **state)
-{
-    (void)state;
-    fm_settings s = layers_settings(9);
-    s.depths = FM_DEPTHS_COPLANAR;
-    fm_scene *scene = create(&s);
-    for (uint32_t i = 1; i < 9; i++)
-        assert_true((scene->layers[i].depth == scene->layers[i - 1].depth) == (i % 2 == 1));
-    scene_destroy(scene);
-    s.depths = FM_DEPTHS_EQUAL;
-    scene = create(&s);
-    for (uint32_t i = 0; i < 9; i++)
-        assert_true(scene->layers[i].depth == 0.5f);
-    scene_destroy(scene);
-}
-
-static void clustered_depths_make_eight_clusters(void **state)
-{
-    (void)state;
-    fm_settings s = layers_settings(100);
-    s.depths = FM_DEPTHS_CLUSTERED;
-    fm_scene *scene = create(&s);
-    int jumps = 0;
-    for (uint32_t i = 1; i < 100; i++) {
-        const double step = (double)scene->layers[i].depth - (double)scene->layers[i - 1].depth;
-        assert_true(step >= ldexp(1.0, -20));
-        jumps += step > ldexp(1.0, -20);
-    }
-    assert_int_equal(jumps, 7);
-    scene_destroy(scene);
 }
 
 /* Whether two planes swap their order within the rectangle, tried at its corners. */
@@ -471,11 +358,6 @@ int main(void)
         cmocka_unit_test(no_layers_are_legal),
         cmocka_unit_test(layers_scene_has_no_mesh),
         cmocka_unit_test(uniform_depths_are_exact_and_below_one),
-        cmocka_unit_test(ulp_depths_are_neighbours),
-        cmocka_unit_test(layers_share_depths_in_pairs_or_all_of_them),
-        cmocka_unit_test(step24_depths_are_multiples_of_two_to_the_minus_24),
-        cmocka_unit_test(ends_depths_start_at_zero_and_end_at_one),
-        cmocka_unit_test(clustered_depths_make_eight_clusters),
         cmocka_unit_test(sloped_planes_stay_in_range_and_cross),
         cmocka_unit_test(sloped_fragments_lie_on_their_plane),
         cmocka_unit_test(colours_are_premultiplied),

@@ -83,9 +83,33 @@ static void invisible_layers_and_none_show_nothing(void **state)
     assert_true(measured_rmse(state, "width_px=31 height_px=11 n=0") == 0.0);
 }
 
+/* Of one scene with and without: everything that is compared is eight times as bright. */
+static void exposure_scales_the_error_and_no_verdict(void **state)
+{
+    scene_kit kit;
+    kit_scene scene;
+    fm_measurement plain, exposed;
+    kit_open(&kit, device_of(state));
+    kit_scene_open(&scene, &kit, "width_px=16 height_px=9 n=12 alpha=0.5 tessellation=1");
+    assert_true(kit_measure(&plain, &scene, &(kit_way){ "wboit", FM_FEED_RASTER, "" }));
+    assert_true(kit_measure(&exposed, &scene, &(kit_way){ "wboit", FM_FEED_RASTER, "exposure=3" }));
+    const fm_difference *seen = &plain.error.region[FM_REGION_VIEWPORT].difference;
+    const fm_difference *brighter = &exposed.error.region[FM_REGION_VIEWPORT].difference;
+    assert_true(seen->max_abs > 1e-3);
+    assert_true(fabs(brighter->max_abs - 8 * seen->max_abs) < 1e-5);
+    assert_true(brighter->rmse > 7.9 * seen->rmse);
+    assert_true(kit_apart(exposed.image, plain.image) > 1);
+    assert_true(fabs(exposed.self_max_abs - plain.self_max_abs) <= 0);
+    measurement_free(&plain);
+    measurement_free(&exposed);
+    kit_scene_close(&scene);
+    kit_close(&kit);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        ON_VULKAN_AND_OSMESA(exposure_scales_the_error_and_no_verdict),
         ON_VULKAN_AND_OSMESA(blending_follows_the_equation),
         ON_VULKAN_AND_OSMESA(one_layer_is_exact),
         ON_VULKAN_AND_OSMESA(layers_of_one_colour_are_exact),

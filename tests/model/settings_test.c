@@ -226,6 +226,22 @@ static void scene_hash_mixes_only_what_the_generator_reads(void **state)
     assert_string_not_equal(a, b);
 }
 
+/* Hashes of the time before there were quiet keys: ids and truths of then stay. */
+static void scene_hash_has_quiet_keys_only_where_they_are_set(void **state)
+{
+    (void)state;
+    char hash[17];
+    fm_error err;
+    fm_settings settings = defaults();
+    set(&settings, "n", "8");
+    assert_int_equal(settings_finish(&settings, &err), FM_OK);
+    settings_scene_hash(hash, &settings);
+    assert_string_equal(hash, "31e3c850145acb2e");
+    set(&settings, "depth", "reversed");
+    settings_scene_hash(hash, &settings);
+    assert_string_not_equal(hash, "31e3c850145acb2e");
+}
+
 static void scene_hash_changes_with_the_generators_version(void **state)
 {
     (void)state;
@@ -416,6 +432,7 @@ int main(void)
         cmocka_unit_test(settings_finish_bounds_layers_and_fragments),
         cmocka_unit_test(settings_finish_judges_meshes),
         cmocka_unit_test(scene_hash_mixes_only_what_the_generator_reads),
+        cmocka_unit_test(scene_hash_has_quiet_keys_only_where_they_are_set),
         cmocka_unit_test(scene_hash_changes_with_the_generators_version),
         cmocka_unit_test(only_regular_files_are_digested),
         cmocka_unit_test(scene_hash_reads_the_mesh_not_its_name),

@@ -114,6 +114,40 @@ static void passes_that_own_depth_or_samples_test_in_the_shader(void **state)
     assert_null(culled.passes[8].reads[0]); /* not over the scene */
 }
 
+/* Passes of the method until the one that tests depth, with what the texts say. */
+static fm_status check_reversed(fm_error *err, const char *const *texts, bool without_peel)
+{
+    fm_method_desc method = make_method();
+    const fm_settings settings = make_settings(texts);
+    for (size_t i = 0; without_peel && i < FM_MAX_PASSES; i++)
+        method.passes[i].state.depth_test = FM_COMPARE_OFF;
+    return culling_check(&method, &settings, FM_FEED_RASTER, err);
+}
+
+static void a_reversed_projection_has_no_depth_test_of_a_pass(void **state)
+{
+    (void)state;
+    fm_error err = { .message = "" };
+    assert_int_equal(check_reversed(&err, TEXTS("culling", "none"), false), FM_OK);
+    assert_int_equal(check_reversed(&err, TEXTS("culling", "none", "depth", "reversed"), false),
+                     FM_UNSUPPORTED);
+    assert_non_null(strstr(err.message, "pass 'peel'"));
+    assert_non_null(strstr(err.message, "attachment 'depth'"));
+    assert_int_equal(check_reversed(&err, TEXTS("culling", "none", "depth", "reversed"), true),
+                     FM_OK);
+}
+
+static void a_reversed_projection_is_culled_in_the_shader_only(void **state)
+{
+    (void)state;
+    fm_error err = { .message = "" };
+    assert_int_equal(check_reversed(&err, TEXTS("depth", "reversed"), true), FM_UNSUPPORTED);
+    assert_non_null(strstr(err.message, "pass 'store'"));
+    assert_non_null(strstr(err.message, "fm_cull_boundary"));
+    assert_int_equal(check_reversed(&err, TEXTS("depth", "reversed", "cull_test", "shader"), true),
+                     FM_OK);
+}
+
 static void the_map_lies_in_the_largest_buffer_if_asked(void **state)
 {
     (void)state;
@@ -216,6 +250,8 @@ int main(void)
         cmocka_unit_test(passes_without_depth_test_before_the_shader),
         cmocka_unit_test(passes_that_own_depth_or_samples_test_in_the_shader),
         cmocka_unit_test(passes_over_a_cover_are_left_alone),
+        cmocka_unit_test(a_reversed_projection_has_no_depth_test_of_a_pass),
+        cmocka_unit_test(a_reversed_projection_is_culled_in_the_shader_only),
         cmocka_unit_test(the_map_lies_in_the_largest_buffer_if_asked),
         cmocka_unit_test(each_scene_pass_tests_for_itself),
         cmocka_unit_test(the_largest_buffer_is_as_options_and_n_make_it),

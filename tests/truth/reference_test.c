@@ -82,6 +82,29 @@ static void the_reference_is_the_nearest_picture(void **state)
     reference_free(&reference);
 }
 
+/* Three stops up: colours, intervals and truncation eightfold, alpha as it was. */
+static void exposure_scales_colours_and_not_alpha(void **state)
+{
+    (void)state;
+    float rgba[12] = { 0.3f, 0.3f, 0, 0.64f, 1, 1, 1, 1 };
+    fm_image image = { 3, 1, rgba };
+    fm_reference plain, exposed;
+    assert_int_equal(reference_create(&plain, &truth, 1, &image, NULL), FM_OK);
+    assert_int_equal(reference_create(&exposed, &truth, 1, &image, NULL), FM_OK);
+    reference_expose(&exposed, &image, 3);
+    for (int i = 0; i < 12; i++) {
+        const float scale = i % 4 == 3 ? 1.0f : 8.0f;
+        assert_true(exposed.wanted->rgba[i] == scale * plain.wanted->rgba[i]);
+        assert_true(exposed.all->rgba[i] == scale * plain.all->rgba[i]);
+    }
+    assert_true(rgba[0] == 8 * 0.3f && rgba[3] == 0.64f);
+    /* Of the two tied fragments the second is cut off: 0.24 of green and of alpha, in 12 values. */
+    assert_true(fabs(plain.truncation_rmse - 0.24 * sqrt(2.0 / 12)) < 1e-6);
+    assert_true(fabs(exposed.truncation_rmse - 0.24 * sqrt(65.0 / 12)) < 1e-6);
+    reference_free(&plain);
+    reference_free(&exposed);
+}
+
 static void tied_pixels_hang_on_how_many_are_wanted(void **state)
 {
     (void)state;
@@ -96,6 +119,7 @@ int main(void)
         cmocka_unit_test(either_order_of_a_tie_is_right),
         cmocka_unit_test(a_declared_loss_is_left_out_and_nothing_else),
         cmocka_unit_test(the_reference_is_the_nearest_picture),
+        cmocka_unit_test(exposure_scales_colours_and_not_alpha),
         cmocka_unit_test(tied_pixels_hang_on_how_many_are_wanted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -11,8 +11,9 @@
 
 static const char *const orders[] = { "random", "random-cell", "ascending", "descending",
                                       "cell-major" };
-static const char *const flat_depths[] = { "uniform", "clustered", "coplanar", "ulp",
-                                           "equal",   "step24",    "ends" };
+static const char *const flat_depths[] = { "uniform", "clustered", "coplanar",
+                                           "ulp",     "equal",     "step24",
+                                           "ends",    "step32",    "projected depth=reversed" };
 static const char *const probabilities[] = { "0", "0.5", "1" };
 
 enum { LAYERS = 12 };

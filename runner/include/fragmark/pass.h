@@ -21,8 +21,9 @@
  *   other passes  define  void NAME(uint index), called with the number of a tile, a triangle or a
  *                 unit of a total, each from 0. If fm_pass.lanes is above 1, several invocations
  *                 share an index, and fm_lane tells them apart
- *   units         pixel: (0, 0) at the upper left. depth: 0 (near) to 1. colour: RGBA8, red in the
- *                 low byte, premultiplied by alpha
+ *   units         pixel: (0, 0) at the upper left. depth: 0 (near) to 1, also where the projection
+ *                 is reversed; only attachments have what was rasterised then, and no pass that
+ *                 tests it runs. colour: RGBA8, red in the low byte, premultiplied by alpha
  *
  * What a shader sees:
  *   buffers       by their names: fragments[i]. fm_length_NAME is how many elements there are now,
