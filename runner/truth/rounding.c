@@ -50,12 +50,13 @@ static double read_step(fm_accumulate format)
 
 typedef struct moved {
     double shows, sum;         /* t, s */
+    double kept;               /* h */
     double by_shows, by_front; /* e, E */
 } moved;
 
 static void add_front(moved *at, fm_accumulate format, const worst *of)
 {
-    const double read = read_step(format), shown = fmin(1, at->shows + at->by_shows);
+    const double read = read_step(format), shown = fmin(at->kept, at->shows + at->by_shows);
     const double added = (1 + 0x1p-8) * (of->colour + read) * shown; /* as half_step's part */
     at->sum += of->colour * at->shows;
     at->sum = of->is_premultiplied ? fmin(1, at->sum) : at->sum;
@@ -72,19 +73,29 @@ static void add_back(moved *at, fm_accumulate format, const worst *of)
     at->by_front += half_step(format, at->sum + at->by_front);
 }
 
+/* Rounding keeps the order of values: what T is at most is rounded as T is. */
+static double most_kept(fm_accumulate format, const worst *of, double kept)
+{
+    if (format == FM_ACCUMULATE_UNORM8) /* no product lies within 1/510 of half way */
+        return floor(255 * of->through * kept + 0.5 + 1e-6) / 255;
+    return fmin(1, (of->through + read_step(format)) * kept + half_step(format, kept));
+}
+
 static void let_through(moved *at, fm_accumulate format, const worst *of)
 {
-    const double shown = fmin(1, at->shows + at->by_shows);
-    at->by_shows = of->through * at->by_shows + read_step(format) * shown;
-    at->by_shows = fmin(1, at->by_shows + half_step(format, shown));
+    const double most = at->kept;
+    at->by_shows = of->through * at->by_shows + read_step(format) * most;
+    at->by_shows += half_step(format, most);
     at->shows *= of->through;
+    at->kept = most_kept(format, of, most);
+    at->by_shows = fmin(at->by_shows, fmax(at->shows, at->kept));
 }
 
 double rounding_bound(fm_rounding rounding, const fm_fragment *fragments, uint32_t count,
                       uint32_t most)
 {
     const fm_accumulate format = rounding.accumulate;
-    moved at = { .shows = 1 };
+    moved at = { .shows = 1, .kept = 1 };
     if (format == FM_ACCUMULATE_FLOAT32)
         return 0;
     const worst of = find_worst(fragments, count);

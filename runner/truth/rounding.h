@@ -7,10 +7,12 @@
  * r moves a value x by half a step of the format at x; also, front to back, by no more than c T,
  * since C itself is one of the format's values. Reading c and a moves them by half a step, too.
  * Let g be the most that any of the fragments lets through, c the largest of their colours, t and s
- * what T and C are at most without rounding, e and E what rounding has moved them by:
- *     e' <= g e + read (t + e) + half(t + e)
- *     E' <= E + c e + read (t + e) + min(half(s + E), (c + read)(t + e))   front to back
- *     E' <= g E + read (1 + s + E) + half(s' + E)                          back to front
+ * what T and C are at most without rounding, h what T is at most with it, e and E what rounding has
+ * moved them by:
+ *     h' <= r(g h), since r keeps the order of values
+ *     e' <= g e + read h + half(h), and no more than t' or h', the larger one
+ *     E' <= E + c e + read h + min(half(s' + E), (c + read) h)   front to back
+ *     E' <= g E + read (1 + s + E) + half(s' + E)                back to front
  * None of it hangs on the order of the fragments, so it holds in each order that ties allow. What
  * float32 rounds beside is not in it (measure_image_tolerance). */
 #ifndef FM_ROUNDING_H
