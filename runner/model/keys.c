@@ -246,7 +246,7 @@ const fm_key fm_keys[] = {
     { "own_cull", FM_KEY_ENUM, QUIET, AT(own_cull), NAMES(own_cull_names),
       .fallback = "on", .help = "the method's own test before its lock" },
     { "accumulate", FM_KEY_ENUM, QUIET, AT(accumulate), NAMES(accumulate_names),
-      .fallback = "float32", .help = "to what colour and transmittance are rounded after each fragment" },
+      .fallback = "float32", .help = "what each step of compositing is rounded to" },
     { "composite", FM_KEY_ENUM, QUIET, AT(composite), NAMES(composite_names),
       .fallback = "front-to-back", .help = "from which end a pixel's fragments are composited" },
     { "model", FM_KEY_TEXT, FM_SCOPE_CASE, AT(model), .fallback = "",
