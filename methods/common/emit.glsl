@@ -1,6 +1,17 @@
 // fm_emit of a pass that emits. The timed build composites front to back (colours are premultiplied):
-//   C = C + c (1 - A),  A = A + a (1 - A).
+//   C = C + c (1 - A),  A = A + a (1 - A),
+// or, where FM_BACK_TO_FRONT is 1, each fragment over those before:
+//   C = c + C (1 - a),  A as above.
 // The checked build writes the fragments of the pixels of one band down instead.
+#include "common/accumulate.glsl"
+
+// The rank that the i-th turn of a loop hands over, of `count` ranks that the loop has all of.
+#if FM_BACK_TO_FRONT
+#define FM_RANK(i, count) ((count) - 1u - (i))
+#else
+#define FM_RANK(i, count) (i)
+#endif
+
 #ifdef FM_CAPTURE
 
 void fm_emit(uvec2 pixel, int rank, float depth, uint colour)
@@ -38,8 +49,16 @@ vec4 fm_back;
 // An approximation's one colour: it has no fragments, and the checked build finds none.
 void fm_blended(uvec2 pixel, vec4 colour)
 {
-    fm_front += colour.rgb * fm_shows;
-    fm_shows *= 1.0 - colour.a;
+    vec4 c = fm_read_colour(colour);
+#if FM_BACK_TO_FRONT
+    FM_PRECISE vec3 front = c.rgb + fm_front * (1.0 - c.a);
+#else
+    FM_PRECISE vec3 front = fm_front + c.rgb * fm_shows;
+#endif
+    FM_PRECISE float shows = fm_shows * (1.0 - c.a);
+    vec4 kept = fm_rounded(vec4(front, shows));
+    fm_front = kept.rgb;
+    fm_shows = kept.a;
 }
 
 void fm_emit(uvec2 pixel, int rank, float depth, uint colour)
@@ -47,7 +66,9 @@ void fm_emit(uvec2 pixel, int rank, float depth, uint colour)
     vec4 c = unpackUnorm4x8(colour);
 #ifdef FM_EMITS_BACK
     if (rank < 0) { // each one lies before those already there
-        fm_back = c + fm_back * (1.0 - c.a);
+        c = fm_read_colour(c);
+        FM_PRECISE vec4 back = c + fm_back * (1.0 - c.a);
+        fm_back = fm_rounded(back);
         return;
     }
 #endif

@@ -28,6 +28,8 @@ void sort_fragments(uint count)
 
 void emit_sorted(uvec2 pixel, uint count)
 {
-    FM_LOOP for (uint i = 0u; i < count; ++i)
-        fm_emit(pixel, int(i), uintBitsToFloat(sorted[i].x), sorted[i].y);
+    FM_LOOP for (uint i = 0u; i < count; ++i) {
+        uint rank = FM_RANK(i, count);
+        fm_emit(pixel, int(rank), uintBitsToFloat(sorted[rank].x), sorted[rank].y);
+    }
 }

@@ -47,8 +47,9 @@ void emit_in_place(uvec2 pixel, uint count)
 {
     sort_in_place(pixel, count);
     FM_LOOP for (uint i = 0u; i < count; ++i) {
-        uvec2 fragment = fragment_at(pixel, i);
-        fm_emit(pixel, int(i), uintBitsToFloat(fragment.x), fragment.y);
+        uint rank = FM_RANK(i, count);
+        uvec2 fragment = fragment_at(pixel, rank);
+        fm_emit(pixel, int(rank), uintBitsToFloat(fragment.x), fragment.y);
     }
 }
 #endif

@@ -49,9 +49,10 @@ void emit_in_runs(uvec2 pixel, uint count, uint kept)
         if (step < emit) {
             heap_step(pixel, step, count, kept);
         } else {
-            uvec2 fragment = fragment_at(pixel, step - emit);
+            uint rank = FM_RANK(step - emit, kept);
+            uvec2 fragment = fragment_at(pixel, rank);
             if (fragment.x != FM_EMPTY_BITS)
-                fm_emit(pixel, int(step - emit), uintBitsToFloat(fragment.x), fragment.y);
+                fm_emit(pixel, int(rank), uintBitsToFloat(fragment.x), fragment.y);
         }
     }
     if (first + each < all)

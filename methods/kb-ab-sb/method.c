@@ -8,7 +8,7 @@ const fm_method_desc fm_method = {
     .citation = "Vasilakis, Fudos 2014, k+-buffer, doi:10.1145/2556700.2556702; store: "
                 "Vasilakis, Fudos 2012",
     .version = "1",
-    .traits = FM_TRAIT_EXACT | FM_TRAIT_SORTS_IN_RESOLVE,
+    .traits = FM_TRAIT_EXACT | FM_TRAIT_SORTS_IN_RESOLVE | FM_TRAIT_EMITS_EITHER,
     .keeps = FM_KEEPS_K_NEAREST,
     .family = FM_FAMILY_K_BUFFER,
     .marker = FM_MARKER_PLUS,

@@ -7,7 +7,8 @@ const fm_method_desc fm_method = {
     .title = "KB-Multi",
     .citation = "Liu, Wei, Xu, Wu 2009, Multi-Layer Depth Peeling via Fragment Sort, CAD/Graphics",
     .version = "1",
-    .traits = FM_TRAIT_BOUNDED | FM_TRAIT_SORTS_IN_RESOLVE | FM_TRAIT_LOSES_TIES | FM_TRAIT_RACY,
+    .traits = FM_TRAIT_BOUNDED | FM_TRAIT_SORTS_IN_RESOLVE | FM_TRAIT_LOSES_TIES | FM_TRAIT_RACY |
+              FM_TRAIT_EMITS_EITHER,
     .keeps = FM_KEEPS_K_NEAREST,
     .family = FM_FAMILY_K_BUFFER,
     .marker = FM_MARKER_PLUS,

@@ -7,7 +7,8 @@ const fm_method_desc fm_method = {
     .title = "KB-SR, counter",
     .citation = "after Bavoil, Myers 2008, Deferred Rendering using a Stencil Routed K-Buffer, ShaderX6",
     .version = "1",
-    .traits = FM_TRAIT_BOUNDED | FM_TRAIT_SORTED_INPUT | FM_TRAIT_SORTS_IN_RESOLVE,
+    .traits = FM_TRAIT_BOUNDED | FM_TRAIT_SORTED_INPUT | FM_TRAIT_SORTS_IN_RESOLVE |
+              FM_TRAIT_EMITS_EITHER,
     .keeps = FM_KEEPS_K_NEAREST,
     .family = FM_FAMILY_K_BUFFER,
     .marker = FM_MARKER_SQUARE,

@@ -8,7 +8,7 @@ const fm_method_desc fm_method = {
     .citation = "Lipowski 2010, Multi-layered framebuffer condensation: the l-buffer concept; as "
                 "measured by Vasilakis, Fudos 2012, doi:10.2312/conf/EG2012/short/101-104",
     .version = "1",
-    .traits = FM_TRAIT_EXACT | FM_TRAIT_SORTS_IN_RESOLVE,
+    .traits = FM_TRAIT_EXACT | FM_TRAIT_SORTS_IN_RESOLVE | FM_TRAIT_EMITS_EITHER,
     .keeps = FM_KEEPS_ALL,
     .family = FM_FAMILY_A_BUFFER,
     .marker = FM_MARKER_CROSS,

@@ -9,7 +9,7 @@ const fm_method_desc fm_method = {
     .citation = "Peeper 2008, Prefix sum pass to linearize A-buffer storage; as measured by "
                 "Vasilakis, Fudos 2012, S-buffer, doi:10.2312/conf/EG2012/short/101-104",
     .version = "1",
-    .traits = FM_TRAIT_EXACT | FM_TRAIT_SORTS_IN_RESOLVE,
+    .traits = FM_TRAIT_EXACT | FM_TRAIT_SORTS_IN_RESOLVE | FM_TRAIT_EMITS_EITHER,
     .keeps = FM_KEEPS_ALL,
     .family = FM_FAMILY_A_BUFFER,
     .marker = FM_MARKER_CIRCLE,

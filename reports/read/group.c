@@ -120,7 +120,7 @@ static void describe(fm_group *group, const fm_text_list *free_columns)
     if (one->order[0] != '\0')
         snprintf(group->workload + used, room - used, ", order %s", one->order);
     char options[FM_OPTIONS_TEXT_BYTES];
-    options_select(options, one->options, FM_OPTIONS_OF_SCENE, NULL);
+    options_select(options, one->options, FM_OPTIONS_OF_SCENE, free_columns);
     used = strlen(group->workload);
     if (options[0] != '\0')
         snprintf(group->workload + used, room - used, ", %s", options);

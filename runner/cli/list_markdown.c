@@ -21,6 +21,7 @@ static const struct trait_words {
     { FM_TRAIT_BOUNDED, "bounded" },
     { FM_TRAIT_SORTS_IN_RESOLVE, "sorts in resolve" },
     { FM_TRAIT_EMITS_BACK, "emits from the back" },
+    { FM_TRAIT_EMITS_EITHER, "emits either way" },
     { FM_TRAIT_CONTROL, "control" },
     { 0 },
 }, image_words[] = {

@@ -16,7 +16,7 @@ typedef struct fm_instance_desc {
     fm_stage *stage;
     const fm_method_desc *method;
     fm_shader_folders folders;
-    const fm_settings *settings; /* k, lock, pool, full_screen, timers */
+    const fm_settings *settings; /* k, lock, pool, full_screen, timers, accumulate, composite */
     const fm_choice *choices;
     size_t choice_count;
     uint64_t fragments, fragments_kept; /* F and F_k of the scene, for formulas */

@@ -96,6 +96,9 @@ void pass_define(fm_text *text, const fm_instance *instance, const fm_pass *pass
     shader_define(text, "FM_INTERLOCK", pass_has_interlock(instance, pass));
     shader_define(text, "FM_TARGETS", pass_has_fixed_function(pass));
     shader_define(text, "FM_EMIT_FIRST", pass_emits_first(instance, pass));
+    shader_define(text, "FM_ACCUMULATE", (uint64_t)instance->desc.settings->accumulate);
+    shader_define(text, "FM_BACK_TO_FRONT",
+                  instance->desc.settings->composite == FM_COMPOSITE_BACK_TO_FRONT);
     define_culling(text, pass, instance->desc.settings);
     define_counters(text);
     shader_define(text, "FM_GROUP_LANES", FM_GROUP_LANES);

@@ -24,9 +24,9 @@ _Static_assert(sizeof marker_names / sizeof marker_names[0] == FM_MARKER_COUNT,
 
 /* In the order of FM_TRAIT_*'s bits. */
 static const char *const trait_names[] = {
-    "exact",           "bounded",    "sorted_input", "sorts_in_resolve",
-    "loses_depth_one", "loses_ties", "racy",         "approximate",
-    "control",         "floor",      "emits_back",   "reads_colour",
+    "exact",      "bounded",      "sorted_input", "sorts_in_resolve", "loses_depth_one",
+    "loses_ties", "racy",         "approximate",  "control",          "floor",
+    "emits_back", "reads_colour", "emits_either",
 };
 enum { TRAIT_COUNT = sizeof trait_names / sizeof trait_names[0] };
 _Static_assert((1u << TRAIT_COUNT) == FM_TRAITS_ALL + 1u, "one name a trait");

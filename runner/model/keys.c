@@ -112,6 +112,16 @@ ONE_NAME_EACH(cull_memory_names, FM_CULL_MEMORY_COUNT, fm_cull_memory);
 static const char *const own_cull_names[] = { [FM_OWN_CULL_ON] = "on", [FM_OWN_CULL_OFF] = "off" };
 ONE_NAME_EACH(own_cull_names, FM_OWN_CULL_COUNT, fm_own_cull);
 
+static const char *const accumulate_names[] = { [FM_ACCUMULATE_FLOAT32] = "float32",
+                                                [FM_ACCUMULATE_FLOAT16] = "float16",
+                                                [FM_ACCUMULATE_UNORM8] = "unorm8" };
+ONE_NAME_EACH(accumulate_names, FM_ACCUMULATE_COUNT, fm_accumulate);
+
+static const char *const composite_names[] = {
+    [FM_COMPOSITE_FRONT_TO_BACK] = "front-to-back", [FM_COMPOSITE_BACK_TO_FRONT] = "back-to-front"
+};
+ONE_NAME_EACH(composite_names, FM_COMPOSITE_COUNT, fm_composite);
+
 #define NAMES(names) .values = (names), .value_count = sizeof(names) / sizeof(names)[0]
 
 #define AT(field) .offset = offsetof(fm_settings, field)
@@ -247,6 +257,10 @@ const fm_key fm_keys[] = {
       .fallback = "on", .help = "the method's own test before its lock" },
     { "exposure", FM_KEY_REAL, QUIET, AT(exposure), .low = -16, .high = 16, .fallback = "0",
       .unit = "stops", .help = "pictures are compared with colours times 2^E, alpha as it is" },
+    { "accumulate", FM_KEY_ENUM, QUIET, AT(accumulate), NAMES(accumulate_names),
+      .fallback = "float32", .help = "what each step of compositing is rounded to" },
+    { "composite", FM_KEY_ENUM, QUIET, AT(composite), NAMES(composite_names),
+      .fallback = "front-to-back", .help = "from which end a pixel's fragments are composited" },
     { "model", FM_KEY_TEXT, FM_SCOPE_CASE, AT(model), .fallback = "",
       .help = "of the simulated GPU: \"NAME=VALUE ...\", names as in its parameters.yml" },
     { "launches", FM_KEY_UINT, FM_SCOPE_RUN, AT(launches), .low = 1, .high = 1000,

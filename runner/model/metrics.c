@@ -162,6 +162,10 @@ const fm_metric_info fm_metrics[FM_METRIC_COUNT] = {
         "flip of the image against the picture of all fragments", CASE, LESS, ERRORS },
     [FM_METRIC_DISTINCT_IMAGES] = { "distinct_images", "distinct images", "",
         "how many different images all timed frames drew", SUMMARY, LESS, MEASURED, WHOLE },
+    [FM_METRIC_IMAGE_ULP_MAX] = { "image_ulp_max", "rounding", "ulp",
+        "self_max_abs in units in the last place of the format that accumulate names, at the value in "
+        "double precision, the largest of all channels; an alpha's unit is that of the larger of alpha "
+        "and 1 - alpha", CASE, LESS, ERRORS },
     [FM_METRIC_TIMES_FLOOR] = { "times_floor", "x floor", "",
         "store_ms over floor_store_ms of the same launch, median of the launches (timers=frame: of frames)", SUMMARY, LESS,
         TIMED },

@@ -77,6 +77,7 @@ typedef enum fm_metric {
     FM_METRIC_TOTAL_SSIM,
     FM_METRIC_TOTAL_FLIP,
     FM_METRIC_DISTINCT_IMAGES,
+    FM_METRIC_IMAGE_ULP_MAX,
     /* what follows from times */
     FM_METRIC_TIMES_FLOOR,
     FM_METRIC_FRAGMENTS_PER_S,

@@ -107,6 +107,19 @@ typedef enum fm_full_screen {
 /* What has a timer: each pass, or all of them one. */
 typedef enum fm_timers { FM_TIMERS_PASSES, FM_TIMERS_FRAME, FM_TIMERS_COUNT } fm_timers;
 
+/* To what the compositor behind fm_emit rounds after each fragment, and from which end it goes. */
+typedef enum fm_accumulate {
+    FM_ACCUMULATE_FLOAT32,
+    FM_ACCUMULATE_FLOAT16,
+    FM_ACCUMULATE_UNORM8,
+    FM_ACCUMULATE_COUNT
+} fm_accumulate;
+typedef enum fm_composite {
+    FM_COMPOSITE_FRONT_TO_BACK,
+    FM_COMPOSITE_BACK_TO_FRONT,
+    FM_COMPOSITE_COUNT
+} fm_composite;
+
 /* Culling by an occupancy map, before the method's own passes. */
 typedef enum fm_culling { FM_CULLING_NONE, FM_CULLING_OCCUPANCY, FM_CULLING_COUNT } fm_culling;
 typedef enum fm_cull_range {
@@ -186,6 +199,8 @@ typedef struct fm_settings {
     fm_cull_test cull_test;
     fm_cull_memory cull_memory;
     fm_own_cull own_cull; /* whether exclusive passes ask wanted() */
+    fm_accumulate accumulate;
+    fm_composite composite;
     uint32_t launches, frames, warmup;
 } fm_settings;
 

@@ -34,6 +34,15 @@ static bool has_pixel_pass(const fm_method_desc *method)
     return false;
 }
 
+/* Whether fragments go through the compositor: not of a floor, nor of a technique's sequences. */
+static bool hands_over(const fm_method_desc *method)
+{
+    for (size_t i = 0; i < FM_MAX_PASSES && method->passes[i].name != NULL; i++)
+        if (method->passes[i].emits)
+            return true;
+    return false;
+}
+
 /* Keys that change nothing get one value, so that cases that differ only in them are one case. */
 static void forget_unused_scene_keys(fm_settings *settings)
 {
@@ -55,6 +64,10 @@ static void forget_unused_method_keys(fm_settings *settings, const fm_method_des
             settings_set(settings, &fm_keys[i], fm_keys[i].fallback, NULL);
     if (!has_pixel_pass(method))
         settings->full_screen = FM_FULL_SCREEN_COMPUTE;
+    if (!hands_over(method)) {
+        settings->accumulate = FM_ACCUMULATE_FLOAT32;
+        settings->composite = FM_COMPOSITE_FRONT_TO_BACK;
+    }
     if (method->technique == NULL) {
         settings->model = "";
     } else {
@@ -201,10 +214,21 @@ static void refuse_passes(fm_text *why, const fm_case *made, const fm_plan_point
         text_add(why, "%s", err.message);
 }
 
+/* Other than front to back needs a method that can hand over so, which its traits say. */
+static void refuse_composite(fm_text *why, const fm_case *made, const fm_plan_point *point)
+{
+    const uint32_t traits = point->entry->plugin->method->traits;
+    if (made->settings.composite == FM_COMPOSITE_FRONT_TO_BACK ||
+        (traits & FM_TRAIT_EMITS_EITHER) != 0)
+        return;
+    text_add(why, "composite = back-to-front: %s hands over %s", made->method,
+             (traits & FM_TRAIT_EMITS_BACK) != 0 ? "from both ends" : "front to back");
+}
+
 static void refuse_method(fm_text *why, const fm_case *made, const fm_plan_point *point)
 {
     static void (*const reasons[])(fm_text *, const fm_case *, const fm_plan_point *) = {
-        refuse_feed, refuse_place, refuse_k, refuse_choice, refuse_passes,
+        refuse_feed, refuse_place, refuse_k, refuse_choice, refuse_passes, refuse_composite,
     };
     for (size_t i = 0; i < sizeof reasons / sizeof reasons[0] && why->length == 0; i++)
         reasons[i](why, made, point);

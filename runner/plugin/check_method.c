@@ -82,6 +82,8 @@ static fm_status check_head(const fm_method_desc *m, fm_error *err)
         status = check_range(m->marker, FM_MARKER_COUNT, "marker", err);
     if (status == FM_OK && (m->traits & FM_TRAIT_EXACT) && (m->traits & FM_TRAIT_APPROXIMATE))
         status = fm_fail(err, FM_INVALID, "traits: exact and approximate exclude each other");
+    if (status == FM_OK && (m->traits & FM_TRAIT_EMITS_BACK) && (m->traits & FM_TRAIT_EMITS_EITHER))
+        status = fm_fail(err, FM_INVALID, "traits: emits_back and emits_either exclude each other");
     if (status == FM_OK)
         status = check_later_method(m, err);
     return status;

@@ -158,7 +158,8 @@ static double pixel_distance(const pixel_walk *walk, const reference_images *com
     find_range(&range, walk, pixel, compared->wanted);
     for (size_t i = 0; i < compared->count; i++)
         largest = fmax(largest, range_distance(&range, &compared->images[i]->rgba[4 * pixel]));
-    return largest;
+    return fmax(0, largest - rounding_bound(compared->rounding, &walk->truth->fragments[first],
+                                            count, compared->wanted));
 }
 
 fm_status reference_distance(double *max_abs, const reference_images *compared, fm_error *err)

@@ -9,6 +9,7 @@
 #ifndef FM_REFERENCE_H
 #define FM_REFERENCE_H
 
+#include "rounding.h"
 #include "ties.h"
 #include "truth.h"
 
@@ -35,12 +36,14 @@ typedef struct reference_images {
     const fm_truth *truth;
     uint32_t wanted; /* as above */
     uint32_t traits; /* FM_TRAIT_LOSES_*: pixels that these may touch are left out */
+    fm_rounding rounding;
     fm_image *const *images;
     size_t count;
 } reference_images;
 
 /* The largest distance of any channel of any of the images from what truth allows of the wanted
- * fragments; INFINITY: a channel is no number. FM_NO_MEMORY. */
+ * fragments, less what `rounding` may move the pixel by; INFINITY: a channel is no number.
+ * FM_NO_MEMORY. */
 fm_status reference_distance(double *max_abs, const reference_images *compared, fm_error *err);
 
 /* The distance of one pixel's channels from a range: the largest; INFINITY as above. */

@@ -171,6 +171,8 @@ static void add_checked(json_t *metrics, const fm_measurement *m, const fm_truth
     answer_set_count(metrics, FM_METRIC_TRUTH_DIGEST, truth_digest(truth));
     answer_set_count(metrics, FM_METRIC_TIED_PIXELS, m->tied_pixels);
     answer_set_number(metrics, FM_METRIC_SELF_MAX_ABS, m->self_max_abs);
+    if (m->check.captured > 0) /* an approximation hands none over */
+        answer_set_number(metrics, FM_METRIC_IMAGE_ULP_MAX, m->image_ulp_max);
     add_errors(metrics, &m->error, &m->total_error);
     answer_set_number(metrics, FM_METRIC_TRUNCATION_RMSE, m->truncation_rmse);
 }

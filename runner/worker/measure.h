@@ -39,7 +39,7 @@ typedef struct fm_measurement {
     uint64_t *image_hashes; /* [distinct_images], of all timed frames, by the device; owned */
     uint32_t distinct_images;
     /* Of an exact method where depths tie: the largest distance of any timed frame's image from
-     * what truth allows (truth/reference.h). */
+     * what truth allows, beyond what the case rounds (truth/reference.h). */
     double frames_max_abs;
     bool may_differ; /* it is such a method: its frames may draw different images */
 
@@ -50,6 +50,9 @@ typedef struct fm_measurement {
     /* Timed image against its own fragments composited in double; where a tie leaves their order
      * open, against what that allows (truth/reference.h), as in all that follows. */
     double self_max_abs;
+    /* The same beyond what the case rounds (truth/rounding.h), and how much that is there. */
+    double self_beyond, self_bound;
+    double image_ulp_max;       /* self_max_abs in ulps of what the case accumulates in */
     uint64_t tied_pixels;       /* where such ties are among the wanted fragments */
     fm_image_error error;       /* against the picture of the fragments that it was to hand over */
     double truncation_rmse;     /* of that picture against the picture of all fragments */

@@ -25,6 +25,7 @@ typedef struct checking {
     fm_fragment *fragments; /* [band_pixels][slots], as captured */
     uint32_t (*counts)[2];  /* [band_pixels]: from the front, from the back */
     fm_fragment *pixel;     /* [slots]: one pixel's, in order */
+    fm_rounding rounding;
     fm_ties *ties;
     kept_writer *kept; /* NULL: fragments are not kept */
 } checking;
@@ -56,10 +57,20 @@ static void keep_one(const checking *check, uint32_t local, uint32_t count)
     kept_add_words(check->kept, &word, 1);
 }
 
-static void check_image(checking *check, uint64_t pixel, const fm_range *range)
+/* bound: what the case may round at this pixel. */
+static void check_image(checking *check, uint64_t pixel, const fm_range *range, double bound)
 {
-    const double apart = range_distance(range, &check->measurement->image->rgba[4 * pixel]);
-    check->measurement->self_max_abs = fmax(apart, check->measurement->self_max_abs);
+    fm_measurement *m = check->measurement;
+    const float *rgba = &m->image->rgba[4 * pixel];
+    const double apart = range_distance(range, rgba);
+    m->self_max_abs = fmax(apart, m->self_max_abs);
+    if (apart - bound > m->self_beyond) {
+        m->self_beyond = apart - bound;
+        m->self_bound = bound;
+    }
+    m->image_ulp_max =
+        fmax(rounding_ulps_apart(check->rounding.accumulate, range->low, range->high, rgba),
+             m->image_ulp_max);
 }
 
 /* All of a pixel: what was captured, and what the timed frame drew there. Where ties leave the
@@ -74,16 +85,19 @@ static void check_one(checking *check, uint64_t pixel, uint32_t local)
     const uint32_t count = gather(check, local);
     const fm_fragment *truth = &check->truth->fragments[first];
     const bool is_open = ties_are_open(truth, all, wanted);
+    double bound = rounding_bound(check->rounding, check->pixel, count, count);
     fm_range range;
     keep_one(check, local, count);
     composite_pixel(range.low, check->pixel, count);
     memcpy(range.high, range.low, sizeof range.high);
     check_pixel(sums, check->pixel, count, truth, all, wanted); /* sorts them */
-    if (is_open && sums->wrong_pixels == wrong_before)
+    if (is_open && sums->wrong_pixels == wrong_before) {
         ties_range(&range, check->ties, truth, all, wanted);
-    else if (is_open)
+        bound = rounding_bound(check->rounding, truth, all, wanted);
+    } else if (is_open) {
         ties_range(&range, check->ties, check->pixel, count, count);
-    check_image(check, pixel, &range);
+    }
+    check_image(check, pixel, &range, bound);
     check->measurement->tied_pixels += is_open;
 }
 
@@ -179,7 +193,8 @@ fm_status measure_check_fragments(fm_measurement *measurement, const fm_measure_
     checking check = { .measurement = measurement,
                        .truth = desc->truth,
                        .stage = desc->method->stage,
-                       .wanted = measure_k(measurement, desc) };
+                       .wanted = measure_k(measurement, desc),
+                       .rounding = measure_rounding(desc) };
     fm_instance_desc capture = *desc->method;
     fm_instance *instance = NULL;
     kept_writer kept = { .out = NULL };

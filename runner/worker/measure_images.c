@@ -44,6 +44,7 @@ fm_status frame_images_settle(frame_images *images, fm_measurement *measurement,
     const reference_images kept = { .truth = desc->truth,
                                     .wanted = measure_k(measurement, desc),
                                     .traits = desc->method->method->traits,
+                                    .rounding = measure_rounding(desc),
                                     .images = images->kept,
                                     .count = images->count };
     double apart = 0;

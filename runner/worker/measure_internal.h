@@ -4,6 +4,7 @@
 #define FM_MEASURE_INTERNAL_H
 
 #include "measure.h"
+#include "truth/rounding.h"
 
 /* One frame. A frame in which a lock was given up is counted and run again. What is lost every time
  * is the method's own loss. */
@@ -12,6 +13,8 @@ fm_status measure_frame(fm_frame_result *result, fm_measurement *measurement, fm
 /* Fragments of a pixel that truth wants in this frame: the k that the method chose, or
  * measure_wanted. */
 uint32_t measure_k(const fm_measurement *measurement, const fm_measure_desc *desc);
+/* The case's keys `accumulate` and `composite`. */
+fm_rounding measure_rounding(const fm_measure_desc *desc);
 /* Takes bytes_predicted and bytes_used from the instance. */
 void measure_bytes(fm_measurement *measurement, const fm_instance *instance,
                    const fm_measure_desc *desc);

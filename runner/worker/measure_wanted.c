@@ -1,4 +1,4 @@
-/* How many fragments of a pixel a method is to hand over. */
+/* What a case asks for: how many fragments of a pixel, and how they are composited. */
 #include "measure_internal.h"
 
 uint32_t measure_wanted(const fm_method_desc *method, uint32_t k)
@@ -27,4 +27,10 @@ uint32_t measure_k(const fm_measurement *measurement, const fm_measure_desc *des
     return measurement->k_chosen > 0
                ? measurement->k_chosen
                : measure_wanted(desc->method->method, desc->method->settings->k);
+}
+
+fm_rounding measure_rounding(const fm_measure_desc *desc)
+{
+    const fm_settings *settings = desc->method->settings;
+    return (fm_rounding){ settings->accumulate, settings->composite };
 }

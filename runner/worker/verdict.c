@@ -23,11 +23,12 @@ bool verdict_is_wrong(fm_error *err, const fm_measurement *measurement, uint32_t
         return false;
     if (are_fragments_wrong(err, measurement))
         return true;
-    if (measurement->self_max_abs > allowed)
+    if (measurement->self_beyond > allowed)
         fm_fail(err, FM_OK,
                 "declared exact, but the timed image is %.3g from its own fragments (%.2g is "
                 "allowed)",
-                measurement->self_max_abs, allowed);
+                measurement->self_beyond + measurement->self_bound,
+                measurement->self_bound + allowed);
     else if (measurement->frames_max_abs > allowed)
         fm_fail(err, FM_OK,
                 "declared exact, but the image of a timed frame is %.3g from all that truth allows "

@@ -135,6 +135,7 @@ static void plugin_check_rejects_bad_heads(void **state)
     REFUSES(m.version = NULL, "version: missing");
     REFUSES(m.traits = 1u << 31, "traits: unknown bits 0x80000000");
     REFUSES(m.traits = FM_TRAIT_EXACT | FM_TRAIT_APPROXIMATE, "exclude each other");
+    REFUSES(m.traits = FM_TRAIT_EMITS_BACK | FM_TRAIT_EMITS_EITHER, "emits_either exclude each");
     REFUSES(m.features = 1u << 30, "features");
     REFUSES(m.features_optional = 1u << 30, "features_optional");
     REFUSES(m.feeds = 1u << 6, "feeds");
@@ -350,7 +351,9 @@ static void plugin_check_rejects_what_is_not_there_yet(void **state)
 static void plugin_check_takes_every_known_trait(void **state)
 {
     (void)state;
-    ACCEPTS(m.traits = FM_TRAITS_ALL & ~(uint32_t)FM_TRAIT_EXACT);
+    const uint32_t excluded = FM_TRAIT_EXACT | FM_TRAIT_EMITS_BACK;
+    ACCEPTS(m.traits = FM_TRAITS_ALL & ~excluded);
+    ACCEPTS(m.traits = excluded);
 }
 
 static void plugin_check_rejects_bad_attachments(void **state)

@@ -65,8 +65,10 @@ enum {
     FM_TRAIT_EMITS_BACK = 1u << 10,   /* calls fm_emit with negative ranks */
     FM_TRAIT_READS_COLOUR = 1u << 11, /* computes with colours (weighs or blends them) before it
                                          emits; others hand their 32 bits on, whatever they mean */
+    FM_TRAIT_EMITS_EITHER = 1u << 12, /* takes its ranks from FM_RANK, and so can hand over from
+                                         the front or from the back; never with _EMITS_BACK */
 };
-#define FM_TRAITS_ALL ((1u << 12) - 1u) /* all of the above */
+#define FM_TRAITS_ALL ((1u << 13) - 1u) /* all of the above */
 
 /* What a method needs of the device, beside what every device has. If one is missing, the case is
  * not_supported, with the reason. */

@@ -47,7 +47,10 @@
  *                 needs FM_TRAIT_EMITS_BACK. A pass over tiles puts its calls between its own calls
  *                 of fm_emit_begin(pixel) and fm_emit_end(pixel), made once for every pixel of the
  *                 viewport. So does an indirect pass, for every pixel if it is the first that
- * emits. fm_blended(pixel, colour) hands over one vec4 (premultiplied) instead, where an
+ *                 emits. FM_RANK(i, count) is the rank of the i-th turn of a loop that has all
+ *                 `count` ranks of a pixel: i, or count - 1 - i where the runner's key `composite`
+ *                 asks for it. A method that takes its ranks so has FM_TRAIT_EMITS_EITHER.
+ *                 fm_blended(pixel, colour) hands over one vec4 (premultiplied) instead, where an
  *                 approximation has a colour and no fragments: its image is then its only error
  *   losses        fm_lost(pixel) counts a fragment that found no room: never lose one in silence
  *   events        fm_culled() and fm_locked() count in the checked build only
