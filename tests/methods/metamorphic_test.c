@@ -15,7 +15,7 @@ enum {
     BEHIND = 6, /* further ones, behind depth 1/2 */
     WIDTH = 11,
     HEIGHT = 6,
-    SCENES = 6, /* where all are asked for */
+    SCENES = 4, /* where all are asked for */
     PART = 9,   /* of the methods, in turn */
     VALUES = FM_MAX_OPTION_VALUES
 };
