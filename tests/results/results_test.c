@@ -119,7 +119,10 @@ static void summary_has_the_columns_of_the_design_in_order(void **state)
         "reference_ms_low,reference_ms_high,store_ms_low,store_ms_high,resolve_ms_low,"
         "resolve_ms_high,times_floor_low,times_floor_high,frame_wall_ms_low,frame_wall_ms_high,"
         "fragments_per_s_low,fragments_per_s_high,noisy,"
-        "code_program,code_driver,code_plugin,code_shaders\n");
+        "code_program,code_driver,code_plugin,code_shaders,"
+        "covered_rmse,covered_psnr_db,covered_max_abs,covered_ssim,flip_median,flip_p95,flip_max,"
+        "covered_flip,covered_flip_median,covered_flip_p95,covered_flip_max,"
+        "total_rmse,total_max_abs,total_ssim,total_flip\n");
     text_free(&header);
 }
 
