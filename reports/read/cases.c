@@ -120,7 +120,9 @@ static void add_look(fm_case_row *result, const fm_provenance *manifest)
                           (is_timed || result->is_simulated);
     /* manifest.json lists devices at the end of a run: until then nothing is claimed of a GPU. */
     result->is_software = device == NULL || device->is_software;
-    result->metric[FM_METRIC_TOTAL_RMSE] = result->metric[FM_METRIC_RMSE];
+    if (isnan(result->metric[FM_METRIC_TOTAL_RMSE]) &&
+        !(result->metric[FM_METRIC_TRUNCATION_RMSE] > 0.0))
+        result->metric[FM_METRIC_TOTAL_RMSE] = result->metric[FM_METRIC_RMSE];
     if (result->k == 0.0)
         result->k = NAN; /* what methods that keep no k nearest are given */
 }
@@ -268,8 +270,6 @@ bool case_number(double *value, const fm_case_row *result, const char *name)
 {
     const size_t key = key_index(name);
     const double *number = number_of(result, name);
-    if (strcmp(name, fm_metrics[FM_METRIC_TOTAL_RMSE].name) == 0)
-        number = &result->metric[FM_METRIC_TOTAL_RMSE];
     if (key < KEY_COUNT && !keys[key].is_text)
         memcpy(value, (const char *)result + keys[key].at, sizeof *value);
     else if (number != NULL)

@@ -23,7 +23,8 @@ typedef struct fm_case_row {
     /* the workload; k is NAN for methods that keep no k nearest */
     double width_px, height_px, k, r, pixel_density, fragment_probability, tessellation;
     /* By fm_metric; NAN for those that summary.csv has no column for. total_rmse of an older run,
-     * which has none, is from samples.csv, or rmse where that lacks it, too. */
+     * which has none, is from samples.csv; where that lacks it, too, it is rmse, if nothing was
+     * truncated. */
     double metric[FM_METRIC_COUNT];
     /* Ends of its interval, the same: NAN where one launch has none, or the file has no column. */
     double low[FM_METRIC_COUNT], high[FM_METRIC_COUNT];

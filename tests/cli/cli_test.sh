@@ -40,7 +40,7 @@ done
 check help_of_run_has_the_axes 0 "pixel_density" "$program" run --help
 
 check methods_are_listed 0 "null" "$program" list methods
-check methods_are_listed_with_their_traits 0 "[exact, bounded, sorts in resolve] Vasilakis" \
+check methods_are_listed_with_their_traits 0 "[exact, bounded, sorts in resolve, emits either way] Vasilakis" \
     "$program" list methods
 check devices_are_listed 0 "dummy" "$program" list devices
 check scenes_are_listed 0 "layers" "$program" list scenes

@@ -109,7 +109,9 @@ refused "$work/done" '(program, plugin: null.so)' -a launches=1
 renewed "$work/done" '(program, plugin: null.so)' 3 3 -a launches=1
 run "$work/done" -q -a launches=1
 [ "$code" -eq 0 ] || complain "nothing changed, and the exit code is $code: $(cat "$work/talk")"
-columns=$(tail -1 "$work/done/summary.csv" | rev | cut -d, -f1-4 | rev)
+columns=$(sed 's/"[^"]*"/quoted/g' "$work/done/summary.csv" | awk -F, '
+    NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
+    END { print $at["code_program"] "," $at["code_driver"] "," $at["code_plugin"] "," $at["code_shaders"] }')
 [[ "$columns" =~ ^[0-9a-f]{16},[0-9a-f]{16},[0-9a-f]{16},[0-9a-f]{16}$ ]] ||
     complain "the row's code is '$columns'"
 exit "$failed"

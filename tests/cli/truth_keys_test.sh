@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # truth_keys_test.sh PROGRAM [PAIRS]: truth hangs on scene, device and feed alone. Each key of a case, as
 # `run --help` lists them, is set to each of its values, then PAIRS times (10) two keys at random: truth's
-# digest stays what it is at the defaults, and methods that are declared exact are.
+# digest stays what it is at the defaults, and methods that are declared exact are. More methods are asked
+# where PAIRS is given.
 set -euo pipefail
 program=$1
 pairs=${2:-10}
@@ -34,7 +35,8 @@ if [ "${#settings[@]}" -lt 20 ]; then
 fi
 
 scenes=('-a n=24 -a fragment_probability=0.6' '-a n=24 -a depths=coplanar' '-a n=24 -a depths=sloped')
-methods=exact,kplus-array,kplus-heap,kb-mdt64,ab-ll,s-buffer,tile-k,wboit
+methods=exact,kplus-array,tile-k,wboit
+[ $# -lt 2 ] || methods=$methods,kplus-heap,kb-mdt64,ab-ll,s-buffer
 declare -A truths
 
 # try DEVICE FEED SCENE [SETTING...]: one run; compares with the run of the same place without settings
