@@ -73,7 +73,8 @@ static void fit_axes(fm_chart *chart, const fm_overall *overall, const fm_error_
     chart->x = (fm_axis){ .scale = FM_SCALE_LOG,
                           .zero_below = kind->exact_below,
                           .length_px = plot_width_px };
-    snprintf(chart->x.title, sizeof chart->x.title, "error: the worst of all, %s",
+    snprintf(chart->x.title, sizeof chart->x.title, "error: the worst of all, %s%s",
+             fm_metrics[kind->metric].better == FM_BETTER_MORE ? "1 - " : "",
              fm_metrics[kind->metric].name);
     axis_fit(&chart->x, values, overall->point_count);
     for (size_t i = 0; i < overall->point_count; i++) {
@@ -95,9 +96,10 @@ static void add_texts(fm_chart *chart, const fm_overall *overall)
              "%zu workloads of %zu scenes; methods that are ok in all of them",
              overall->workload_count, overall->scene_count);
     snprintf(chart->notes[0], sizeof chart->notes[0],
-             "lower left is better; bars: 95 %% intervals");
-    snprintf(chart->notes[1], sizeof chart->notes[1], "grey: another has no more error");
-    snprintf(chart->notes[2], sizeof chart->notes[2], "and is clearly faster");
+             "lower left is better; bars: where the ratio is,");
+    snprintf(chart->notes[1], sizeof chart->notes[1], "if the intervals hold the times");
+    snprintf(chart->notes[2], sizeof chart->notes[2], "grey: another has no more error");
+    snprintf(chart->notes[3], sizeof chart->notes[3], "and is clearly faster");
 }
 
 fm_status speed_error_overall_chart(fm_chart *chart, const fm_overall *overall,

@@ -12,8 +12,8 @@ static const struct {
     const char *title, *help;
     fm_metric metric; /* where title is NULL */
 } columns[] = {
-    { "&#9679;",
-      "&#9679; on the frontier: clearly faster than all with no more error; &#9675; tied", 0 },
+    { "&#9679;", "filled: on the frontier, clearly faster than all with no more error; empty: tied",
+      0 },
     { "method", "as its paper names it", 0 },
     { "k", "fragments kept per pixel", 0 },
     { .metric = FM_METRIC_N },

@@ -14,8 +14,8 @@ typedef struct fm_cheapest {
     size_t tied_count;      /* others within the bound whose times overlap with its own */
 } fm_cheapest;
 
-/* cheapest: [CHEAPEST_BOUNDS]; by median frame_ms, of the cases that compete. None is where cases
- * differ in n: the cheapest would be the one that has the least to do. false: no memory. */
+/* cheapest: [CHEAPEST_BOUNDS]; by median frame_ms, of the cases that compete. There is none where
+ * cases differ in n: the cheapest would be the one that has the least to do. false: no memory. */
 bool cheapest_make(fm_cheapest *cheapest, const fm_group *group, const fm_error_kind *kind);
 
 #endif

@@ -10,7 +10,8 @@
 /* The groups of one device and feed that have an exact case, and its time. */
 typedef struct bucket {
     const fm_group **groups;
-    fm_span *exact;
+    const fm_case_row **cheapest; /* its exact case that takes the least time, */
+    fm_span *exact;               /* and how long that takes */
     size_t count;
 } bucket;
 
@@ -39,6 +40,7 @@ static bool fill_bucket(bucket *b, const fm_groups *groups, size_t first, const 
         if (cheapest[0].row == NULL)
             continue;
         b->groups[b->count] = group;
+        b->cheapest[b->count] = cheapest[0].row;
         b->exact[b->count++] = standing_time(cheapest[0].row);
     }
     return true;
@@ -88,7 +90,9 @@ static bool sum_up(fm_overall_point *point, const bucket *b, const fm_case_row *
         const fm_case_row *one = find_same(b->groups[i], first, kind);
         if (one == NULL)
             return false;
-        const fm_span time = standing_time(one), ratio = span_ratio(&time, &b->exact[i]);
+        const fm_span time = standing_time(one);
+        const fm_span ratio =
+            one == b->cheapest[i] ? (fm_span){ 1, 1, 1 } : span_ratio(&time, &b->exact[i]);
         logs.value += log(ratio.value) / (double)b->count;
         logs.low += log(ratio.low) / (double)b->count;
         logs.high += log(ratio.high) / (double)b->count;
@@ -129,11 +133,13 @@ fm_status overalls_make(fm_overalls *overalls, const fm_groups *groups, const fm
                         fm_error *err)
 {
     const size_t room = groups->count + 1;
-    bucket b = { calloc(room, sizeof *b.groups), calloc(room, sizeof *b.exact), 0 };
+    bucket b = { calloc(room, sizeof *b.groups), calloc(room, sizeof *b.cheapest),
+                 calloc(room, sizeof *b.exact), 0 };
     *overalls = (fm_overalls){ calloc(room, sizeof *overalls->items), 0 };
-    fm_status status = b.groups != NULL && b.exact != NULL && overalls->items != NULL
-                           ? FM_OK
-                           : fm_fail(err, FM_NO_MEMORY, "%zu workloads", groups->count);
+    fm_status status =
+        b.groups != NULL && b.cheapest != NULL && b.exact != NULL && overalls->items != NULL
+            ? FM_OK
+            : fm_fail(err, FM_NO_MEMORY, "%zu workloads", groups->count);
     for (size_t i = 0; i < groups->count && status == FM_OK; i++) {
         if (!is_first_of_its_kind(groups, i))
             continue;
@@ -143,6 +149,7 @@ fm_status overalls_make(fm_overalls *overalls, const fm_groups *groups, const fm
             status = make_one(&overalls->items[overalls->count++], &b, kind, err);
     }
     free(b.groups);
+    free(b.cheapest);
     free(b.exact);
     return status;
 }

@@ -1,7 +1,7 @@
 /* Errors: a status and one sentence that names file, line, pass or field.
  *
  * The room base holds what any program needs: errors, texts, paths, CSV, YAML, statistics, random
- * numbers, images and their errors, a clock. It knows nothing of fragmark but where its folders
+ * numbers, a clock. It knows nothing of fragmark but where its folders
  * lie (data.h): no key, method or scene may be named here. */
 #ifndef FM_ERROR_H
 #define FM_ERROR_H

@@ -1,4 +1,5 @@
 /* Which exposures HDR-FLIP looks at: section 3 of Andersson et al. 2021. */
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -23,7 +24,7 @@ static fm_status measure(brightness *found, const fm_image *image, fm_error *err
         const float *rgba = image->rgba + 4 * i, behind = 1.0f - rgba[3];
         const float shown[3] = { rgba[0] + behind, rgba[1] + behind, rgba[2] + behind };
         const float luminance = colour_luminance(shown);
-        values[i] = luminance > 0 ? luminance : 0;
+        values[i] = luminance > 0 ? fminf(luminance, FLT_MAX) : 0;
     }
     pool_sort(values, values + pixels, pixels);
     size_t black = 0;

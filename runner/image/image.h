@@ -1,4 +1,5 @@
-/* Float images, and their files. */
+/* Float images, and their files. The room image holds these and how far two are apart:
+ * image_error.h has all measures, flip.h one of them. */
 #ifndef FM_IMAGE_H
 #define FM_IMAGE_H
 

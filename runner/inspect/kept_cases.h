@@ -49,7 +49,7 @@ fm_status kept_cases_choose(const kept_case **chosen, const kept_cases *cases,
 typedef struct kept_files {
     kept_map maps[KEPT_KIND_COUNT];
     const kept_map *files[KEPT_KIND_COUNT]; /* NULL: there is none */
-    bool is_damaged;                        /* a failure is one's of what is in a file */
+    bool is_damaged;                        /* what failed is what a file holds */
 } kept_files;
 
 /* All of the case's. kept_files_close in any case; else as kept_open. FM_IO with is_damaged, too:

@@ -26,6 +26,9 @@ uint64_t kept_tile_count(const kept_header *header)
     return (uint64_t)kept_tiles_across(header) * down;
 }
 
+/* As many as an image may have; twice as many words are no overflow. */
+static const uint64_t most_pixels = UINT64_C(1) << 28;
+
 /* ---- writing ---- */
 
 static uint64_t head_bytes(const kept_header *header)
@@ -45,7 +48,7 @@ fm_status kept_begin(kept_writer *writer, const char *path, const kept_header *h
     int fd = -1;
     *writer = (kept_writer){ .header = *header };
     if (strlen(path) >= sizeof writer->path)
-        return fm_fail(err, FM_INVALID, "%.80s...: the path is too long", path);
+        return fm_fail(err, FM_IO, "%.80s...: the path is too long", path);
     snprintf(writer->path, sizeof writer->path, "%s", path);
     snprintf(writer->partial, sizeof writer->partial, "%s.partial", path);
     memcpy(writer->header.magic, magic, sizeof magic);
@@ -219,7 +222,9 @@ static const char *find_damage(kept_map *map)
     if (header->kind >= KEPT_KIND_COUNT || header->reserved != 0)
         return "its kind is none that is known";
     const uint64_t pixels = (uint64_t)header->width_px * header->height_px;
-    if (pixels == 0 || (header->kind != KEPT_FRAMES && header->list_count != pixels))
+    if (pixels == 0 || pixels > most_pixels)
+        return "its pictures are too large, or empty";
+    if (header->kind != KEPT_FRAMES && header->list_count != pixels)
         return "it has not one list for each pixel";
     if (!find_arrays(map, header))
         return "its size is not what its header says";

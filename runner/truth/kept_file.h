@@ -7,12 +7,14 @@
  *   items   [item_count]          8 bytes each
  *   words   [word_count]          uint32_t
  *
- *   kind        a list         an item       the words
- *   truth       a pixel        fm_fragment   where the i-th arriving fragment of the pixel stands
- * in its list, one for each item; or none fragments   a pixel        fm_fragment   for each pixel,
- * how many more were handed over than there was room to capture frames      a frame kept_tile for
- * each frame with wrong tiles, the first ones: the picture, and the one that it should have been,
- * RGBA8
+ * What a list and an item are, and the words:
+ *
+ * - truth: a list for each pixel, of fm_fragment. Words: for each item, which place the i-th
+ * fragment to arrive at the pixel has in its list; or none.
+ * - fragments: a list for each pixel, of fm_fragment. Words: for each pixel, how many more were
+ * handed over than there was room to capture.
+ * - frames: a list for each frame, of kept_tile. Words: for each of the first frames with wrong
+ * tiles, the picture and then the one that it should have been, RGBA8.
  *
  * Pixels are row by row from the upper left. A list of truth is nearest first; one of fragments is
  * in the order of ranks; one of frames rises by tiles. Numbers are as the machine has them:
@@ -36,7 +38,7 @@ typedef struct kept_header {
     uint32_t kind; /* kept_kind */
     uint32_t width_px, height_px;
     uint32_t wanted;   /* of fragments: how many of a pixel, from the front, the method was to hand
-                          over; UINT32_MAX: all. Else 0 */
+                          over; UINT32_MAX: all. Of other kinds 0 */
     uint32_t n;        /* most items of a list */
     uint32_t reserved; /* 0 */
     uint64_t list_count, item_count, word_count;

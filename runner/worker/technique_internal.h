@@ -25,12 +25,12 @@ typedef struct sequence_truth {
     sequence_truth_header header;
 } sequence_truth;
 
-/* All of a run. */
 /* Sums over the wrong frames; squares: of rmse. */
 typedef struct technique_errors {
     double squares, max_abs, ssim, flip, flip_max;
 } technique_errors;
 
+/* All of a run. */
 typedef struct technique_run {
     const fm_technique_job *job;
     json_t *samples, *metrics;

@@ -11,7 +11,7 @@ summary() { awk -F, -v name="$1" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == 
     NR == 2 { gsub(/"[^"]*"/, "x"); print $at }' "$out/run/summary.csv"; }
 # value METRIC COLUMN of what error printed
 printed() { awk -F, -v name="$1" -v column="$2" '$1 == name { print $column }' "$out/error.csv"; }
-expect_near() { awk -v a="$2" -v b="$3" 'BEGIN { d = a - b; exit !(d < 1e-6 && d > -1e-6) }' ||
+expect_near() { [ -n "$2" ] && [ -n "$3" ] || fail "$1 is missing"; awk -v a="$2" -v b="$3" 'BEGIN { d = a - b; exit !(d < 1e-6 && d > -1e-6) }' ||
     fail "$1: $2, not $3"; }
 
 "$fragmark" run -q --method wboit -a n=8 -a width_px=40 -a height_px=30 -a launches=1 -a frames=1 -a warmup=0 \

@@ -318,6 +318,13 @@ static void exposures_of_black_pixels_are_bounded(void **state)
     assert_true(map[3] > 0.5f && map[3] <= 1);
     assert_int_equal(image_flip(map, &(flip_desc){ steep, dark, 0, true }, NULL), FM_OK);
     assert_true(map[3] > 0.5f && map[3] <= 1);
+    fm_image *beyond = row_of((const float[]){ 3e38f, 3e38f, 3e38f, 3e38f }, 4);
+    for (int i = 0; i < 4; i++)
+        beyond->rgba[4 * i + 3] = -3e38f; /* finite, but not in front of white */
+    assert_int_equal(flip_exposures(stops, &(flip_desc){ beyond, beyond, 0, true }, NULL), 2);
+    assert_int_equal(image_flip(map, &(flip_desc){ beyond, beyond, 0, true }, NULL), FM_OK);
+    assert_true(map[3] == 0);
+    image_destroy(beyond);
     image_destroy(dim);
     image_destroy(steep);
     image_destroy(dark);

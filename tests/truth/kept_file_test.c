@@ -374,6 +374,34 @@ static void ranks_and_tiles_that_lead_astray_are_refused(void **state)
     damage(write_frames, frame_items, 3, 4);         /* a tile twice */
 }
 
+/* Twice as many words as it has pixels are a small number, if counted in 64 bits. */
+static void pictures_that_no_memory_holds_are_refused(void **state)
+{
+    (void)state;
+    enum { WORDS = 12942 };
+    struct {
+        kept_header header;
+        uint64_t offsets[2];
+        kept_tile tile;
+        uint32_t words[WORDS];
+    } file = { .header = { .magic = "fmkept1",
+                           .kind = KEPT_FRAMES,
+                           .width_px = 3037012561,
+                           .height_px = 3036988439,
+                           .n = 1,
+                           .list_count = 1,
+                           .item_count = 1,
+                           .word_count = WORDS,
+                           .nonempty = 1 },
+               .offsets = { 0, 1 } };
+    const uint64_t pixels = (uint64_t)file.header.width_px * file.header.height_px;
+    place at;
+    assert_true(2 * pixels == WORDS);
+    make_place(&at);
+    refuse(at.path, (const char *)&file, sizeof file);
+    remove_place(&at);
+}
+
 static void what_is_no_file_is_no_damage(void **state)
 {
     kept_map map = { .map = NULL };
@@ -400,6 +428,7 @@ int main(void)
         cmocka_unit_test(each_byte_of_the_header_counts),
         cmocka_unit_test(offsets_that_lead_astray_are_refused),
         cmocka_unit_test(ranks_and_tiles_that_lead_astray_are_refused),
+        cmocka_unit_test(pictures_that_no_memory_holds_are_refused),
         cmocka_unit_test(what_is_no_file_is_no_damage),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
