@@ -104,12 +104,13 @@ void run_tell_unkept(run_state *run)
         for (size_t i = 0; i < run->plan->count; i++)
             if (is_unkept(run, i, (kept_kind)kind) && count++ == 0)
                 first = i;
+        if (count == 0) /* a plan may have no case at all */
+            continue;
         snprintf(sentence, sizeof sentence,
                  "%zu rows were checked before and have no kept %s (the first: %s); they are not "
                  "checked again, so name another -o to keep theirs, too",
                  count, kept_names[kind], run->plan->cases[first].id);
-        if (count > 0)
-            progress_tell_always(&run->progress, run->desc->directory, sentence);
+        progress_tell_always(&run->progress, run->desc->directory, sentence);
     }
 }
 
