@@ -50,7 +50,8 @@ sed -n 1p "$here/run/journal.jsonl" >"$here/journal"
     print "{\"status\":\"not_supported\",\"message\":\"no\"}}"
 }' >>"$here/journal"
 mv "$here/journal" "$here/run/journal.jsonl"
-within replay 30 2000000 3 "${run[@]}"
+# They say nothing of the code that they were measured by: all are read, compared and refused.
+within replay 30 2000000 7 "${run[@]}"
 [ "$(wc -l <"$here/run/summary.csv")" -eq 100001 ] || { echo "FAILED: rows are missing"; failed=1; }
 
 for group in 200 20000; do # in 100 workloads, in one
