@@ -224,16 +224,16 @@ static float clamped(float value)
     return least < 1.0f ? least : 1.0f;
 }
 
-/* Of `seen`, whose third channel's wide part is in `line`. */
+/* Of `seen`, whose third channel's narrow part is in `line`. */
 static void to_rgb(work *w)
 {
-    const float wide = w->kernels.wide_share;
+    const float narrow = w->kernels.narrow_share;
     float *restrict const first = w->seen[0], *restrict const second = w->seen[1];
     float *restrict const third = w->seen[2];
     const float *restrict const line = w->line;
     for (size_t i = 0; i < w->width; i++) {
         const float y = (first[i] + 16.0f) / 116.0f, x = second[i] / 500.0f + y;
-        const float z = y - ((1.0f - wide) * third[i] + wide * line[i]) / 200.0f;
+        const float z = y - ((1.0f - narrow) * third[i] + narrow * line[i]) / 200.0f;
         first[i] =
             clamped(w->to_rgb.row[0][0] * x + w->to_rgb.row[0][1] * y + w->to_rgb.row[0][2] * z);
         second[i] =
@@ -248,8 +248,8 @@ static void see_colours(work *w, side *one, size_t row)
 {
     for (int c = 0; c < 3; c++)
         filter_down(w, w->seen[c], one->across[c], row, &w->kernels.gaussian[c]);
-    filter_down(w, w->line, one->across[FLIP_BLUE_YELLOW_WIDE], row,
-                &w->kernels.gaussian[FLIP_BLUE_YELLOW_WIDE]);
+    filter_down(w, w->line, one->across[FLIP_BLUE_YELLOW_NARROW], row,
+                &w->kernels.gaussian[FLIP_BLUE_YELLOW_NARROW]);
     to_rgb(w);
     lab_of(one->lab, &w->to_xyz, w->seen, w->width);
 }

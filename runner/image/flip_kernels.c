@@ -11,7 +11,7 @@ static const contrast sensitivity[FLIP_GAUSSIANS] = {
     [FLIP_ACHROMATIC] = { 1, 0.0047 }, /* its second Gaussian has height 0 */
     [FLIP_RED_GREEN] = { 1, 0.0053 },
     [FLIP_BLUE_YELLOW] = { 34.1, 0.04 },
-    [FLIP_BLUE_YELLOW_WIDE] = { 13.5, 0.025 },
+    [FLIP_BLUE_YELLOW_NARROW] = { 13.5, 0.025 },
 };
 static const double widest = 0.04;
 /* Weights below this share of the middle one are nothing to a float. */
@@ -93,9 +93,9 @@ void flip_kernels_make(flip_kernels *kernels, double pixels_per_degree)
     *kernels = (flip_kernels){ .radius = filter_radius(pixels_per_degree) };
     for (int i = 0; i < FLIP_GAUSSIANS; i++)
         sums[i] = make_gaussian(&kernels->gaussian[i], &sensitivity[i], pixels_per_degree);
-    const double wide = volume(FLIP_BLUE_YELLOW_WIDE, sums[FLIP_BLUE_YELLOW_WIDE]);
-    const double narrow = volume(FLIP_BLUE_YELLOW, sums[FLIP_BLUE_YELLOW]);
-    kernels->wide_share = (float)(wide / (wide + narrow));
+    const double narrow = volume(FLIP_BLUE_YELLOW_NARROW, sums[FLIP_BLUE_YELLOW_NARROW]);
+    const double wide = volume(FLIP_BLUE_YELLOW, sums[FLIP_BLUE_YELLOW]);
+    kernels->narrow_share = (float)(narrow / (wide + narrow));
     for (int i = 0; i < FLIP_FEATURES; i++) {
         make_feature(&kernels->feature[i], (flip_feature)i, pixels_per_degree);
         if (kernels->feature[i].radius > kernels->radius)

@@ -16,7 +16,7 @@ typedef enum flip_gaussian {
     FLIP_ACHROMATIC,
     FLIP_RED_GREEN,
     FLIP_BLUE_YELLOW,
-    FLIP_BLUE_YELLOW_WIDE,
+    FLIP_BLUE_YELLOW_NARROW,
     FLIP_GAUSSIANS
 } flip_gaussian;
 
@@ -26,7 +26,8 @@ typedef enum flip_feature { FLIP_SMOOTH, FLIP_EDGE, FLIP_POINT, FLIP_FEATURES } 
 
 typedef struct flip_kernels {
     filter_kernel gaussian[FLIP_GAUSSIANS];
-    float wide_share; /* of FLIP_BLUE_YELLOW_WIDE in its channel; FLIP_BLUE_YELLOW has the rest */
+    float
+        narrow_share; /* of FLIP_BLUE_YELLOW_NARROW in its channel; FLIP_BLUE_YELLOW has the rest */
     filter_kernel feature[FLIP_FEATURES];
     int radius; /* the largest of all */
 } flip_kernels;
