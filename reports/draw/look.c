@@ -34,3 +34,8 @@ fm_colour look_part_colour(size_t part)
 {
     return part_colours[part % FM_LOOK_PARTS];
 }
+
+fm_colour look_dominated_colour(void)
+{
+    return (fm_colour){ 170, 170, 170 };
+}

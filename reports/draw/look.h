@@ -19,6 +19,8 @@ fm_colour look_family_colour(fm_family family);
 /* The colour of a method's i-th variant (other options): the first is the colour itself, the next
  * ones darker; from the sixth on they are alike. */
 fm_colour look_shade(fm_colour colour, size_t variant);
+/* Of what another one beats in speed and error. */
+fm_colour look_dominated_colour(void);
 /* A colour for the i-th part of a stacked bar: clear, count, reference, store, resolve, other. */
 fm_colour look_part_colour(size_t part);
 enum { FM_LOOK_PARTS = 8 };

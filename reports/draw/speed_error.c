@@ -9,7 +9,7 @@
 enum { LABEL_PX = 10, LABELS_MOST = 400, POINTS_MOST = 1000 };
 static const double plot_width_px = 620, plot_height_px = 400;
 static const double marker_least_px = 8, marker_most_px = 19;
-static const fm_colour frontier_grey = { 205, 205, 205 }, dominated_grey = { 170, 170, 170 };
+static const fm_colour frontier_grey = { 205, 205, 205 };
 
 /* Of those that stand on the frontier or are tied, from the fastest median on, who has less error
  * than all before: between them the frontier goes. */
@@ -120,7 +120,7 @@ static void dress(fm_series *series, const fm_case_row *one, sort wanted)
         snprintf(series->label, sizeof series->label, "%.76s%s", title,
                  wanted == SORT_WRONG ? " (wrong image)" : "");
     series->colour =
-        wanted == SORT_DOMINATED ? dominated_grey : look_family_colour(one->look.family);
+        wanted == SORT_DOMINATED ? look_dominated_colour() : look_family_colour(one->look.family);
     series->marker = one->look.marker;
     series->has_marker = true;
     series->hollow = wanted == SORT_WRONG;
@@ -282,7 +282,7 @@ static void add_texts(fm_chart *chart, const fm_group *group, const look_of_poin
         snprintf(chart->subtitle, sizeof chart->subtitle, "%s", group->workload);
     else
         snprintf(chart->subtitle, sizeof chart->subtitle,
-                 "%.120s; of %zu cases, dominated ones are left out", group->workload, points);
+                 "%.120s; of %zu cases, those on the frontier or tied", group->workload, points);
     snprintf(chart->notes[0], sizeof chart->notes[0],
              "lower left is better; bars: 95 %% intervals");
     snprintf(chart->notes[1], sizeof chart->notes[1], "grey: another has no more error");

@@ -5,7 +5,6 @@
 #include "speed_error.h"
 
 static const double plot_width_px = 620, plot_height_px = 400;
-static const fm_colour dominated_grey = { 170, 170, 170 };
 enum { LABEL_PX = 10 };
 
 static fm_status place_points(fm_place *places, const fm_overall *overall, fm_error *err)
@@ -48,7 +47,8 @@ static void add_method(fm_chart *chart, const fm_overall *overall, size_t first,
     group_series_title(title, one, NULL);
     if (!wants_dominated)
         snprintf(series->label, sizeof series->label, "%.90s", title);
-    series->colour = wants_dominated ? dominated_grey : look_family_colour(one->look.family);
+    series->colour =
+        wants_dominated ? look_dominated_colour() : look_family_colour(one->look.family);
     series->marker = one->look.marker;
     series->has_marker = true;
     series->stroke = FM_STROKE_NONE;

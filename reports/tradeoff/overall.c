@@ -97,7 +97,6 @@ static bool sum_up(fm_overall_point *point, const bucket *b, const fm_case_row *
         logs.low += log(ratio.low) / (double)b->count;
         logs.high += log(ratio.high) / (double)b->count;
         point->error = fmax(point->error, error_kind_of(kind, one));
-        point->bytes = fmax(point->bytes, one->metric[FM_METRIC_BYTES_ALLOCATED]);
     }
     point->ratio = (fm_span){ exp(logs.value), exp(logs.low), exp(logs.high) };
     return true;

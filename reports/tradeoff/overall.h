@@ -9,7 +9,6 @@ typedef struct fm_overall_point {
     const fm_case_row *row; /* of the first workload */
     fm_span ratio;          /* geometric mean of its time over that of the cheapest exact case */
     double error;           /* the worst of all workloads */
-    double bytes;           /* the most memory of all */
 } fm_overall_point;
 
 /* All workloads of one device and feed that have an exact case. */
