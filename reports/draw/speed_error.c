@@ -63,6 +63,7 @@ static void add_frontier(fm_chart *chart, const fm_group *group, const look_of_p
 {
     size_t count = 0;
     double least = INFINITY;
+    bool has_one_n = true;
     fm_series *series = chart_add_series(chart);
     step *steps = calloc(group->count + 1, sizeof *steps);
     if (series == NULL || steps == NULL) {
@@ -70,10 +71,17 @@ static void add_frontier(fm_chart *chart, const fm_group *group, const look_of_p
         free(steps);
         return;
     }
-    for (size_t i = 0; i < group->count; i++)
-        if (look->places[i].standing >= FM_STANDING_TIED)
+    double n = NAN;
+    for (size_t i = 0; i < group->count; i++) /* cases of another n are no rivals: no line */
+        if (look->places[i].standing >= FM_STANDING_TIED) {
+            const double own = group->cases[i]->metric[FM_METRIC_N];
+            has_one_n = has_one_n && (isnan(n) || isnan(own) || own == n);
+            n = own;
             steps[count++] = (step){ group->cases[i]->metric[FM_METRIC_FRAME_MS],
                                      error_kind_of(look->kind, group->cases[i]), i };
+        }
+    if (!has_one_n)
+        count = 0;
     qsort(steps, count, sizeof *steps, compare_steps);
     for (size_t i = 0; i < count; i++) {
         if (steps[i].error < least)

@@ -29,6 +29,7 @@ static void add_row(fm_text *csv, const fm_group *group, const fm_place *places,
     add_text(csv, row->method);
     add_text(csv, row->options);
     add_number(csv, row->k);
+    add_number(csv, row->metric[FM_METRIC_N]);
     add_text(csv, row->id);
     add_text(csv, row->status);
     add_text(csv, fm_metrics[kind->metric].name);
@@ -48,7 +49,7 @@ static void add_row(fm_text *csv, const fm_group *group, const fm_place *places,
 fm_status tradeoff_csv_add(fm_text *csv, const fm_groups *groups, const fm_error_kind *kind,
                            fm_error *err)
 {
-    text_add(csv, "workload,scene,device,feed,method,options,k,case_id,status,error_metric,error,"
+    text_add(csv, "workload,scene,device,feed,method,options,k,n,case_id,status,error_metric,error,"
                   "truncation_rmse,rmse,frame_ms,frame_ms_low,frame_ms_high,bytes_allocated,"
                   "standing,beaten_by\n");
     for (size_t i = 0; i < groups->count; i++) {

@@ -11,7 +11,8 @@
  *                                              1 a normal float below 1
  *
  * The second is handed on, with 0 for 1 and 1 for all depths below 2^-126, which rasterisers flush
- * to 0 anyway. Two depths are as many ulp apart as before. prelude.glsl has the twin, bit for bit.
+ * to 0 anyway. Two normal depths below 1 are as many ulp apart as before. prelude.glsl has the
+ * twin, bit for bit.
  */
 #ifndef FM_HAND_ON_H
 #define FM_HAND_ON_H

@@ -20,7 +20,7 @@ awk -F, '
         n++
         id[n] = $at["case_id"]; error[n] = $at["error"] + 0; standing[n] = $at["standing"]
         low[n] = number($at["frame_ms_low"], 0); high[n] = number($at["frame_ms_high"], 1e300)
-        beaten_by[n] = $at["beaten_by"]; method[n] = $at["method"]; k[n] = $at["k"]
+        beaten_by[n] = $at["beaten_by"]; method[n] = $at["method"]; k[n] = $at["k"]; layers[n] = $at["n"]
         wanted = total[id[n]] <= 1e-6 ? 0 : total[id[n]]
         if (error[n] - wanted > 1e-9 || wanted - error[n] > 1e-9) { print id[n] ": error " error[n] ", not " wanted; bad = 1 }
         if (cut[id[n]] > 0.01 && error[n] < 0.001) { print method[n] " of k " k[n] " is cut off, and exact"; bad = 1 }
@@ -30,7 +30,7 @@ awk -F, '
             if (method[a] == "null") { if (standing[a] != "") { print "a control competes"; bad = 1 } continue }
             is_beaten = 0; is_clear = 1; names_one = 0
             for (b = 1; b <= n; b++) {
-                if (a == b || method[b] == "null" || error[b] > error[a]) continue
+                if (a == b || method[b] == "null" || error[b] > error[a] || layers[b] != layers[a]) continue
                 if (high[b] < low[a]) { is_beaten = 1; names_one = names_one || beaten_by[a] == id[b] }
                 if (!(high[a] < low[b])) is_clear = 0
             }

@@ -263,10 +263,10 @@ static void table_has_what_is_charted(void **state)
     fm_group one = kit.group;
     const fm_groups groups = { &one, 1 };
     assert_int_equal(tradeoff_csv_add(&csv, &groups, rmse(), NULL), FM_OK);
-    assert_non_null(strstr(csv.bytes, "layers-vulkan-raster,layers,vulkan,raster,lossy-slow,,8,"
+    assert_non_null(strstr(csv.bytes, "layers-vulkan-raster,layers,vulkan,raster,lossy-slow,,8,,"
                                       "lossy-slow,ok,total_rmse,0.01,,,6,5.8,6.1,6000,dominated,"
                                       "lossy\n"));
-    assert_non_null(strstr(csv.bytes, "wrong,,,wrong,wrong_image,total_rmse,0,,,0.1,"));
+    assert_non_null(strstr(csv.bytes, "wrong,,,,wrong,wrong_image,total_rmse,0,,,0.1,"));
     text_free(&csv);
 }
 
