@@ -8,7 +8,8 @@ const fm_method_desc fm_method = {
     .citation = "Bavoil, Myers 2008, Deferred Rendering using a Stencil Routed K-Buffer, ShaderX6; "
                 "Myers, Bavoil 2007, doi:10.1145/1278780.1278806",
     .version = "1",
-    .traits = FM_TRAIT_BOUNDED | FM_TRAIT_SORTED_INPUT | FM_TRAIT_SORTS_IN_RESOLVE,
+    .traits = FM_TRAIT_BOUNDED | FM_TRAIT_SORTED_INPUT | FM_TRAIT_SORTS_IN_RESOLVE |
+              FM_TRAIT_MULTISAMPLED,
     .feeds = FM_FEED_RASTER,
     .keeps = FM_KEEPS_K_NEAREST,
     .k_max = 16,

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "model/family.h"
 #include "model/feeds.h"
 #include "plan/plan.h"
 
@@ -14,35 +15,19 @@ static const char *const keeps_words[] = {
 _Static_assert(sizeof keeps_words / sizeof keeps_words[0] == FM_KEEPS_COUNT, "one each");
 
 /* Traits that say what a method is like; those that say what it gets wrong make up `image`. */
-static const struct trait_words {
-    uint32_t trait;
-    const char *words;
-} trait_words[] = {
-    { FM_TRAIT_BOUNDED, "bounded" },
-    { FM_TRAIT_SORTS_IN_RESOLVE, "sorts in resolve" },
-    { FM_TRAIT_EMITS_BACK, "emits from the back" },
-    { FM_TRAIT_EMITS_EITHER, "emits either way" },
-    { FM_TRAIT_CONTROL, "control" },
-    { 0 },
-}, image_words[] = {
-    { FM_TRAIT_EXACT, "exact" },
-    { FM_TRAIT_APPROXIMATE, "approximate" },
-    { FM_TRAIT_SORTED_INPUT, "needs sorted input" },
-    { FM_TRAIT_RACY, "fragments race" },
-    { FM_TRAIT_LOSES_TIES, "loses ties" },
-    { FM_TRAIT_LOSES_DEPTH_ONE, "loses depth 1" },
-    { FM_TRAIT_FLOOR, "none: the floor" },
-    { 0 },
-};
+static const uint32_t like_traits = FM_TRAIT_BOUNDED | FM_TRAIT_SORTS_IN_RESOLVE |
+                                    FM_TRAIT_EMITS_BACK | FM_TRAIT_EMITS_EITHER | FM_TRAIT_CONTROL;
+static const uint32_t image_traits =
+    FM_TRAIT_EXACT | FM_TRAIT_APPROXIMATE | FM_TRAIT_SORTED_INPUT | FM_TRAIT_RACY |
+    FM_TRAIT_LOSES_TIES | FM_TRAIT_LOSES_DEPTH_ONE | FM_TRAIT_MULTISAMPLED | FM_TRAIT_FLOOR;
 
 /* What goes before the next word: `before` if there were none. */
-static const char *put_words(FILE *out, uint32_t traits, const struct trait_words *words,
-                             const char *before)
+static const char *put_words(FILE *out, uint32_t traits, const char *before)
 {
-    for (; words->trait != 0; words++) {
-        if ((traits & words->trait) == 0)
+    for (unsigned bit = 0; trait_words(bit) != NULL; bit++) {
+        if ((traits & 1u << bit) == 0)
             continue;
-        fprintf(out, "%s%s", before, words->words);
+        fprintf(out, "%s%s", before, trait_words(bit));
         before = ", ";
     }
     return before;
@@ -50,7 +35,7 @@ static const char *put_words(FILE *out, uint32_t traits, const struct trait_word
 
 void list_markdown_traits(FILE *out, uint32_t traits)
 {
-    put_words(out, traits, trait_words, put_words(out, traits, image_words, ""));
+    put_words(out, traits & like_traits, put_words(out, traits & image_traits, ""));
 }
 
 /* A citation with each "doi:..." as a link. */
@@ -86,9 +71,9 @@ static void put_row(FILE *out, const char *id, const fm_method_desc *method)
             method->title != NULL ? method->title : id);
     put_citation(out, method->citation != NULL ? method->citation : "");
     fprintf(out, " | %s | ", (traits & FM_TRAIT_FLOOR) != 0 ? "-" : keeps_words[method->keeps]);
-    put_words(out, traits, image_words, "");
+    put_words(out, traits & image_traits, "");
     fputs(" | ", out);
-    put_words(out, traits, trait_words, "");
+    put_words(out, traits & like_traits, "");
     fputs(" | ", out);
     put_feeds(out, method);
     fputs(" |\n", out);

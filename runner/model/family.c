@@ -23,17 +23,35 @@ _Static_assert(sizeof marker_names / sizeof marker_names[0] == FM_MARKER_COUNT,
                "one name a marker");
 
 /* In the order of FM_TRAIT_*'s bits. */
-static const char *const trait_names[] = {
-    "exact",      "bounded",      "sorted_input", "sorts_in_resolve", "loses_depth_one",
-    "loses_ties", "racy",         "approximate",  "control",          "floor",
-    "emits_back", "reads_colour", "emits_either",
+static const struct {
+    const char *name, *words;
+} traits[] = {
+    { "exact", "exact" },
+    { "bounded", "bounded" },
+    { "sorted_input", "needs sorted input" },
+    { "sorts_in_resolve", "sorts in resolve" },
+    { "loses_depth_one", "loses depth 1" },
+    { "loses_ties", "loses ties" },
+    { "racy", "fragments race" },
+    { "approximate", "approximate" },
+    { "control", "control" },
+    { "floor", "none: the floor" },
+    { "emits_back", "emits from the back" },
+    { "reads_colour", "reads colours" },
+    { "emits_either", "emits either way" },
+    { "multisampled", "keeps samples" },
 };
-enum { TRAIT_COUNT = sizeof trait_names / sizeof trait_names[0] };
+enum { TRAIT_COUNT = sizeof traits / sizeof traits[0] };
 _Static_assert((1u << TRAIT_COUNT) == FM_TRAITS_ALL + 1u, "one name a trait");
 
 const char *trait_name(unsigned bit)
 {
-    return bit < TRAIT_COUNT ? trait_names[bit] : NULL;
+    return bit < TRAIT_COUNT ? traits[bit].name : NULL;
+}
+
+const char *trait_words(unsigned bit)
+{
+    return bit < TRAIT_COUNT ? traits[bit].words : NULL;
 }
 
 const char *marker_name(fm_marker marker)

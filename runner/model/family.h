@@ -10,6 +10,8 @@ const char *family_name(fm_family family);
 fm_family family_parse(const char *name);
 /* "sorted_input", of bit 2 of FM_TRAIT_*; NULL: there is no such bit. */
 const char *trait_name(unsigned bit);
+/* The same for people: "needs sorted input". */
+const char *trait_words(unsigned bit);
 /* "square". */
 const char *marker_name(fm_marker marker);
 /* An unknown name, or NULL, is the circle. */

@@ -97,6 +97,8 @@ static fm_status check_body(const fm_checked_method *check, fm_error *err)
         return fm_fail(err, FM_INVALID, "feeds: 'frames' is for methods with a technique");
     fm_status status = check_resources(check, err);
     if (status == FM_OK)
+        status = check_multisampled(check, err);
+    if (status == FM_OK)
         status = check_totals(check, err);
     if (status == FM_OK)
         status = check_passes(check, err);

@@ -13,6 +13,8 @@ typedef struct fm_checked_method {
 
 fm_status check_options(const fm_checked_method *check, fm_error *err);
 fm_status check_resources(const fm_checked_method *check, fm_error *err);
+/* Traits that resources contradict. */
+fm_status check_multisampled(const fm_checked_method *check, fm_error *err);
 fm_status check_totals(const fm_checked_method *check, fm_error *err);
 fm_status check_passes(const fm_checked_method *check, fm_error *err);
 fm_status check_loops(const fm_checked_method *check, fm_error *err);

@@ -5,6 +5,7 @@
 
 #include "check_later.h"
 #include "check_method.h"
+#include "model/descriptor.h"
 #include "model/formats.h"
 
 enum { NAME_MAX_BYTES = 64, MAX_IMAGE_LAYERS = 2048, MAX_IMAGE_SAMPLES = 16 };
@@ -209,6 +210,22 @@ static fm_status check_image(const fm_checked_method *check, const fm_resource *
         check_counting_option(check, r->samples_option, "samples_option", err) != FM_OK)
         return FM_INVALID;
     return check_clear(r, err);
+}
+
+static bool has_samples(const fm_resource *r)
+{
+    return r->samples > 1 || r->samples_per_k > 0 || r->samples_option != NULL;
+}
+
+fm_status check_multisampled(const fm_checked_method *check, fm_error *err)
+{
+    const fm_method_desc *method = check->method;
+    if ((method->traits & FM_TRAIT_MULTISAMPLED) == 0)
+        return FM_OK;
+    for (size_t i = 0; i < resource_count(method); i++)
+        if (has_samples(&method->resources[i]))
+            return FM_OK;
+    return fm_fail(err, FM_INVALID, "traits: multisampled, but no image has samples");
 }
 
 static fm_status check_resource_name(const fm_checked_method *check, const char *name,

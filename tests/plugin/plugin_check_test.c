@@ -136,6 +136,10 @@ static void plugin_check_rejects_bad_heads(void **state)
     REFUSES(m.traits = 1u << 31, "traits: unknown bits 0x80000000");
     REFUSES(m.traits = FM_TRAIT_EXACT | FM_TRAIT_APPROXIMATE, "exclude each other");
     REFUSES(m.traits = FM_TRAIT_EMITS_BACK | FM_TRAIT_EMITS_EITHER, "emits_either exclude each");
+    ACCEPTS(m.traits = FM_TRAIT_MULTISAMPLED);
+    REFUSES(
+        (m.traits = FM_TRAIT_MULTISAMPLED, m.resources[3].samples = 1, m.resources[4].samples = 1),
+        "multisampled, but no image has samples");
     REFUSES(m.features = 1u << 30, "features");
     REFUSES(m.features_optional = 1u << 30, "features_optional");
     REFUSES(m.feeds = 1u << 6, "feeds");

@@ -67,8 +67,10 @@ enum {
                                          emits; others hand their 32 bits on, whatever they mean */
     FM_TRAIT_EMITS_EITHER = 1u << 12, /* takes its ranks from FM_RANK, and so can hand over from
                                          the front or from the back; never with _EMITS_BACK */
+    FM_TRAIT_MULTISAMPLED = 1u << 13, /* keeps fragments as samples of an image: at silhouettes and
+                                         on slopes samples have others than the pixel's centre */
 };
-#define FM_TRAITS_ALL ((1u << 13) - 1u) /* all of the above */
+#define FM_TRAITS_ALL ((1u << 14) - 1u) /* all of the above */
 
 /* What a method needs of the device, beside what every device has. If one is missing, the case is
  * not_supported, with the reason. */
