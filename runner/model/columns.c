@@ -102,6 +102,13 @@ const fm_column fm_columns[] = {
     METRIC(TOTAL_MAX_ABS),
     METRIC(TOTAL_SSIM),
     METRIC(TOTAL_FLIP),
+    METRIC(FRAGMENTS_WANTED),
+    METRIC(DECLARED_TIES),
+    METRIC(DECLARED_AT_ONE),
+    METRIC(LOST_TIES),
+    METRIC(LOST_AT_ONE),
+    METRIC(SELF_MAX_ABS),
+    METRIC(SELF_BEYOND),
 };
 /* clang-format on */
 _Static_assert(sizeof fm_columns / sizeof fm_columns[0] == FM_COLUMN_COUNT, "FM_COLUMN_COUNT");

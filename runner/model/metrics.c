@@ -101,12 +101,25 @@ const fm_metric_info fm_metrics[FM_METRIC_COUNT] = {
         LESS, WHOLE },
     [FM_METRIC_WRONG_PIXELS] = { "wrong_pixels", "wrong pixels", "",
         "pixels with a missing, extra or misordered fragment", CASE, LESS, WHOLE },
+    [FM_METRIC_FRAGMENTS_WANTED] = { "fragments_wanted", "wanted", "",
+        "fragments that the method was to hand over: of each pixel all, the k nearest or the nearest", CASE, WHOLE },
+    [FM_METRIC_DECLARED_TIES] = { "declared_ties", "ties to lose", "",
+        "of those, what the trait loses_ties says is lost: all but one of each pixel and depth; 0 without it", CASE, WHOLE },
+    [FM_METRIC_DECLARED_AT_ONE] = { "declared_at_one", "to lose at 1", "",
+        "the same of the trait loses_depth_one", CASE, WHOLE },
+    [FM_METRIC_LOST_TIES] = { "lost_ties", "ties lost", "",
+        "of declared_ties, those that are missing", CASE, LESS, WHOLE },
+    [FM_METRIC_LOST_AT_ONE] = { "lost_at_one", "lost at 1", "",
+        "of declared_at_one, those that are missing", CASE, LESS, WHOLE },
     [FM_METRIC_TIED_PIXELS] = { "tied_pixels", "tied pixels", "",
         "pixels where wanted fragments of equal depth differ in colour: truth allows every order of them, "
         "and an image's error is its distance to what these orders reach", CASE, WHOLE },
     [FM_METRIC_SELF_MAX_ABS] = { "self_max_abs", "off its fragments", "",
         "the largest distance, of any channel, of the timed image from the captured fragments composited "
         "in double precision, in any order that ties allow", CASE, LESS, ERRORS },
+    [FM_METRIC_SELF_BEYOND] = { "self_beyond", "off beyond rounding", "",
+        "self_max_abs less what accumulate may round at that pixel; of float32 that is nothing, and 1e-6, or "
+        "2^-23 by the root of n if that is more, is rounding still", CASE, LESS, ERRORS },
     [FM_METRIC_RMSE] = { "rmse", "RMSE", "",
         "root mean squared error over all pixels of the viewport and four channels, linear and "
         "premultiplied, against the picture of the fragments that the method is to keep; where depths "

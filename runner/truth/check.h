@@ -8,7 +8,9 @@
 /* Sums over all pixels. */
 typedef struct fm_check {
     uint32_t traits;    /* given: the method's, FM_TRAIT_* */
-    fm_losses declared; /* of the missing ones, those that the traits excuse */
+    uint64_t wanted;    /* fragments that the method was to hand over */
+    fm_losses declared; /* of those, the ones that its traits say are lost */
+    fm_losses excused;  /* of the missing ones, those that the traits excuse */
     uint64_t captured;  /* fragments handed over */
     uint64_t missing;   /* depths of the wanted multiset that were not captured */
     /* captured (depth, colour) pairs that the pixel does not have, or beyond the wanted count */

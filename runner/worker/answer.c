@@ -159,6 +159,15 @@ static void add_errors(json_t *metrics, const fm_image_error *own, const fm_imag
     add_rows(metrics, total, total_rows, sizeof total_rows / sizeof total_rows[0]);
 }
 
+static void add_losses(json_t *metrics, const fm_check *check)
+{
+    answer_set_count(metrics, FM_METRIC_FRAGMENTS_WANTED, check->wanted);
+    answer_set_count(metrics, FM_METRIC_DECLARED_TIES, check->declared.of_ties);
+    answer_set_count(metrics, FM_METRIC_DECLARED_AT_ONE, check->declared.at_depth_one);
+    answer_set_count(metrics, FM_METRIC_LOST_TIES, check->excused.of_ties);
+    answer_set_count(metrics, FM_METRIC_LOST_AT_ONE, check->excused.at_depth_one);
+}
+
 static void add_checked(json_t *metrics, const fm_measurement *m, const fm_truth *truth)
 {
     answer_set_count(metrics, FM_METRIC_FRAGMENTS_STORED, m->check.captured);
@@ -167,10 +176,12 @@ static void add_checked(json_t *metrics, const fm_measurement *m, const fm_truth
     answer_set_count(metrics, FM_METRIC_MISORDERED, m->check.misordered);
     answer_set_count(metrics, FM_METRIC_DEPTH_ULP_MAX, m->check.depth_ulp_max);
     answer_set_count(metrics, FM_METRIC_WRONG_PIXELS, m->check.wrong_pixels);
+    add_losses(metrics, &m->check);
     answer_set_count(metrics, FM_METRIC_NONEMPTY_PIXELS, truth->nonempty_pixels);
     answer_set_count(metrics, FM_METRIC_TRUTH_DIGEST, truth_digest(truth));
     answer_set_count(metrics, FM_METRIC_TIED_PIXELS, m->tied_pixels);
     answer_set_number(metrics, FM_METRIC_SELF_MAX_ABS, m->self_max_abs);
+    answer_set_number(metrics, FM_METRIC_SELF_BEYOND, m->self_beyond);
     if (m->check.captured > 0) /* an approximation hands none over */
         answer_set_number(metrics, FM_METRIC_IMAGE_ULP_MAX, m->image_ulp_max);
     add_errors(metrics, &m->error, &m->total_error);

@@ -5,8 +5,8 @@
 
 static bool are_fragments_wrong(fm_error *err, const fm_measurement *m)
 {
-    const fm_losses *declared = &m->check.declared;
-    const uint64_t missing = m->check.missing - declared->at_depth_one - declared->of_ties;
+    const fm_losses *excused = &m->check.excused;
+    const uint64_t missing = m->check.missing - excused->at_depth_one - excused->of_ties;
     if (missing + m->check.extra + m->check.misordered + m->lost == 0)
         return false;
     fm_fail(err, FM_OK,
@@ -57,7 +57,7 @@ bool verdict_frames_are_wrong(fm_error *err, const fm_technique_outcome *outcome
 
 bool verdict_loss(char text[VERDICT_LOSS_BYTES], const fm_check *check)
 {
-    const uint64_t at_one = check->declared.at_depth_one, ties = check->declared.of_ties;
+    const uint64_t at_one = check->excused.at_depth_one, ties = check->excused.of_ties;
     const char *const fragments = at_one + ties == 1 ? "fragment" : "fragments";
     if (at_one > 0 && ties > 0)
         snprintf(text, VERDICT_LOSS_BYTES,
