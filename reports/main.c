@@ -146,6 +146,11 @@ static int tell(const arguments *given, const fm_report_outcome *outcome,
                 verdict_name((fm_verdict_kind)kind));
     fputc('\n', stderr);
     printf("%s/report.html\n", given->directory);
+    if (outcome->unexplained_count > 0)
+        fprintf(stderr,
+                "%zu case%s with errors that no trait of the method explains: see the "
+                "report's part on stability\n",
+                outcome->unexplained_count, outcome->unexplained_count == 1 ? "" : "s");
     if (failed > 0)
         fm_fail(err, FM_OK, "%zu claim%s that must hold fail%s: see claims.csv", failed,
                 failed == 1 ? "" : "s", failed == 1 ? "s" : "");
@@ -259,7 +264,8 @@ int main(int argc, char **argv)
         .doc = "Draws charts and writes report.html from the results in DIR.\v"
                "Reads DIR/manifest.json, summary.csv, samples.csv and images/; measures nothing. "
                "Writes DIR/charts/*.svg and *.png, DIR/images/*.png, *.exr and heat maps, "
-               "DIR/tradeoff.csv, and DIR/report.html, one file that opens anywhere. Prints its "
+               "DIR/tradeoff.csv, DIR/stability.csv, and DIR/report.html, one file that opens "
+               "anywhere. Prints its "
                "path.\n\n"
                "Examples:\n"
                "  fragmark-report out/kplus-05\n"

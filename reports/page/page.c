@@ -116,6 +116,7 @@ void page_add_links(fm_text *page, const fm_text_list *papers)
         text_add(page, "<a href=\"#paper-%s\">%s</a>", papers->items[i],
                  strcmp(papers->items[i], "none") == 0 ? "figures" : papers->items[i]);
     text_add(page, "<a href=\"#pictures\">Pictures</a><a href=\"#speed\">Speed against error</a>"
+                   "<a href=\"#stability\">Stability</a>"
                    "<a href=\"#notes\">Notes</a><a href=\"#guide\">How to read</a><a "
                    "href=\"#machine\">Machine and methods</a></nav>\n");
 }
@@ -147,6 +148,11 @@ void page_add_guide(fm_text *page)
         "<b>missing, extra, misordered</b> count fragments, not pixels. A method that claims to be "
         "exact and is not has the status wrong_image, but losses that it declares are excused; for "
         "methods published as approximate or racy a wrong picture is a result.",
+        "<b>Stability</b> is what each method did on each scene: right, off by rounding, wrong, or "
+        "not supported. Traits are what a method declares of itself: that it loses ties, that "
+        "fragments race. An error is explained if a trait allows it, there and in that size; "
+        "losses of ties and at depth 1 are counted one by one. What no trait explains is a fault. "
+        "<a href=\"stability.csv\">stability.csv</a> has the numbers.",
         "<b>The frontier</b> (&#9679; in tables) are the cases that are clearly faster than all "
         "with no more error: their intervals lie apart. Where these overlap, cases are tied "
         "(&#9675;); a case is dominated, and grey in charts, if another with no more error is "
@@ -181,8 +187,8 @@ static size_t add_titles(fm_text *page, const fm_result_files *results,
 
 static bool hides_races(const fm_case_row *result)
 {
-    return result->look.is_racy && result->is_measured && result->is_software &&
-           strcmp(result->feed, "raster") == 0;
+    return (result->look.traits & FM_TRAIT_RACY) != 0 && result->is_measured &&
+           result->is_software && strcmp(result->feed, "raster") == 0;
 }
 
 static bool has_few_launches(const fm_case_row *result)

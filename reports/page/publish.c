@@ -120,8 +120,9 @@ static fm_status move_chart(const char *directory, const char *name, fm_error *e
 }
 
 /* The page comes last: while it is the old one, it shows old charts and numbers. */
-enum { CLAIMS, TRADEOFF, PAGE, FILES };
-static const char *const file_names[FILES] = { "claims.csv", "tradeoff.csv", "report.html" };
+enum { CLAIMS, TRADEOFF, STABILITY, PAGE, FILES };
+static const char *const file_names[FILES] = { "claims.csv", "tradeoff.csv", "stability.csv",
+                                               "report.html" };
 
 /* What happens to a file of before. */
 typedef enum fate { FATE_REPLACE, FATE_REMOVE, FATE_LEAVE } fate;
@@ -131,13 +132,19 @@ typedef struct published {
     char path[FM_PATH_MAX_BYTES], made[FM_PATH_MAX_BYTES]; /* made: beside it, till all is there */
 } published;
 
+/* The text of a file but the claims'; NULL: the file is left alone. */
+static const fm_text *text_of(const fm_publish_desc *desc, int file)
+{
+    return file == TRADEOFF ? desc->tradeoff : file == STABILITY ? desc->stability : desc->page;
+}
+
 static fate fate_of(const fm_publish_desc *desc, int file)
 {
     if (file == CLAIMS)
         return desc->verdicts == NULL       ? FATE_LEAVE
                : desc->verdicts->count == 0 ? FATE_REMOVE
                                             : FATE_REPLACE;
-    return file == TRADEOFF && desc->tradeoff == NULL ? FATE_LEAVE : FATE_REPLACE;
+    return text_of(desc, file) == NULL ? FATE_LEAVE : FATE_REPLACE;
 }
 
 static fm_status name_files(published files[FILES], const fm_publish_desc *desc, fm_error *err)
@@ -157,14 +164,13 @@ static fm_status name_files(published files[FILES], const fm_publish_desc *desc,
 static fm_status write_files(const published files[FILES], const fm_publish_desc *desc,
                              fm_error *err)
 {
-    const fm_text *const texts[FILES] = { [TRADEOFF] = desc->tradeoff, [PAGE] = desc->page };
     fm_status status = FM_OK;
     for (int i = 0; i < FILES && status == FM_OK; i++) {
         if (files[i].fate != FATE_REPLACE)
             continue;
-        status = i == CLAIMS
-                     ? verdicts_write(desc->verdicts, files[i].made, err)
-                     : text_write_file(files[i].made, texts[i]->bytes, texts[i]->length, err);
+        const fm_text *text = text_of(desc, i);
+        status = i == CLAIMS ? verdicts_write(desc->verdicts, files[i].made, err)
+                             : text_write_file(files[i].made, text->bytes, text->length, err);
     }
     return status;
 }

@@ -17,6 +17,7 @@ typedef struct fm_publish_desc {
     const fm_text *page;              /* of report.html */
     const fm_claim_results *verdicts; /* of claims.csv; NULL: it is left alone; none: it goes */
     const fm_text *tradeoff;          /* of tradeoff.csv; NULL: it is left alone */
+    const fm_text *stability;         /* of stability.csv; NULL: it is left alone */
 } fm_publish_desc;
 
 /* Makes an empty DIRECTORY/charts.partial. FM_INVALID: DIRECTORY/report.html was made of results

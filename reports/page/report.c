@@ -6,10 +6,13 @@
 #include "publish.h"
 #include "read/group.h"
 #include "speed_section.h"
+#include "stability/stability_csv.h"
+#include "stability_section.h"
 #include "tradeoff/tradeoff_csv.h"
 #include "writer.h"
 
-static fm_status write_sections(fm_writer *to, fm_text *tradeoff, const fm_report_desc *desc)
+static fm_status write_sections(fm_writer *to, fm_text *tradeoff, fm_text *stability,
+                                const fm_report_desc *desc)
 {
     fm_groups groups;
     const fm_groups_desc all = { 0 };
@@ -25,6 +28,10 @@ static fm_status write_sections(fm_writer *to, fm_text *tradeoff, const fm_repor
         status = picture_section_add(to, &groups);
     if (status == FM_OK)
         status = speed_section_add(to, &groups, desc->figure_count > 0);
+    if (status == FM_OK)
+        status = stability_section_add(to);
+    if (status == FM_OK)
+        status = stability_csv_add(stability, to->results, to->err);
     if (status == FM_OK)
         status = tradeoff_csv_add(tradeoff, &groups, desc->error, to->err);
     page_add_notes(&to->page, to->results);
@@ -44,15 +51,16 @@ fm_status report_write(fm_report_outcome *outcome, const fm_report_desc *desc, f
     fm_status status = publish_begin(directory, desc->results->missing.count, err);
     if (status != FM_OK)
         return status;
-    fm_text tradeoff = { 0 };
-    status = write_sections(&to, &tradeoff, desc);
+    fm_text tradeoff = { 0 }, stability = { 0 };
+    status = write_sections(&to, &tradeoff, &stability, desc);
     if (status == FM_OK && to.page.failed)
         status = fm_fail(err, FM_NO_MEMORY, "report.html");
-    const fm_publish_desc made = { directory, &to.page, desc->verdicts, &tradeoff };
+    const fm_publish_desc made = { directory, &to.page, desc->verdicts, &tradeoff, &stability };
     if (status == FM_OK)
         status = publish_end(&made, err);
     publish_drop(directory);
     text_free(&to.page);
     text_free(&tradeoff);
+    text_free(&stability);
     return status;
 }

@@ -2,10 +2,10 @@
  *
  * The room reports/page writes the report: one file that opens from disk, with charts, tables and
  * pictures inside. report.c puts the sections in order (publish.h puts all files in place;
- * paper_section, picture_section, speed_section, page.h for all that is the same in every report);
- * writer.h is what they share; html.h, case_table, memory_rows and verdict_table are pieces. HTML
- * is written nowhere else. What is shown is worked out below: numbers by read, verdicts by claims,
- * charts and PNGs by draw. */
+ * paper_section, picture_section, speed_section, stability_section, page.h for all that is the same
+ * in every report); writer.h is what they share; html.h, case_table, memory_rows and verdict_table
+ * are pieces. HTML is written nowhere else. What is shown is worked out below: numbers by read,
+ * verdicts by claims, charts and PNGs by draw. */
 #ifndef FM_REPORT_H
 #define FM_REPORT_H
 
@@ -31,6 +31,7 @@ typedef struct fm_report_desc {
 /* How much was written. */
 typedef struct fm_report_outcome {
     size_t chart_count, picture_count;
+    size_t unexplained_count; /* cases whose errors no trait of their method explains */
 } fm_report_outcome;
 
 /* Writes charts/NAME.svg and .png, claims.csv, pictures in images/, and report.html. All but the

@@ -17,15 +17,16 @@ static const char *field(const json_t *object, const char *name)
     return text == NULL ? "" : text;
 }
 
-static bool has_trait(const json_t *method, const char *trait)
+static uint32_t read_traits(const json_t *method)
 {
-    const json_t *traits = json_object_get(method, "traits");
-    for (size_t i = 0; i < json_array_size(traits); i++) {
-        const char *text = json_string_value(json_array_get(traits, i));
-        if (text != NULL && strcmp(text, trait) == 0)
-            return true;
+    const json_t *names = json_object_get(method, "traits");
+    uint32_t traits = 0;
+    for (size_t i = 0; i < json_array_size(names); i++) {
+        const char *text = json_string_value(json_array_get(names, i));
+        for (unsigned bit = 0; text != NULL && trait_name(bit) != NULL; bit++)
+            traits |= strcmp(text, trait_name(bit)) == 0 ? 1u << bit : 0;
     }
-    return false;
+    return traits;
 }
 
 static void read_method(fm_method_info *info, const char *id, const json_t *method)
@@ -39,11 +40,9 @@ static void read_method(fm_method_info *info, const char *id, const json_t *meth
         .family = family_parse(field(method, "family")),
         .marker = marker_parse(field(method, "marker")),
         .is_dashed = json_is_true(json_object_get(method, "dashed")),
-        .is_racy = has_trait(method, "racy"),
-        .is_exact = has_trait(method, "exact"),
-        .is_control = has_trait(method, "control") || has_trait(method, "floor"),
-        .is_approximate = has_trait(method, "approximate"),
+        .traits = read_traits(method),
     };
+    info->is_control = (info->traits & (FM_TRAIT_CONTROL | FM_TRAIT_FLOOR)) != 0;
     if (info->title[0] == '\0')
         info->title = id;
 }

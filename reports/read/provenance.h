@@ -19,8 +19,8 @@ typedef struct fm_method_info {
     fm_family family;     /* gives the colour in charts */
     fm_marker marker;
     bool is_dashed;
-    bool is_racy, is_exact, is_approximate; /* traits */
-    bool is_control;                        /* a control, or the floor */
+    uint32_t traits; /* FM_TRAIT_*; those of newer programs are left out */
+    bool is_control; /* a control, or the floor */
 } fm_method_info;
 
 typedef struct fm_device_info {

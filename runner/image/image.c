@@ -52,6 +52,15 @@ void image_destroy(fm_image *image)
     free(image);
 }
 
+/* A layer rounds the sum and what shows, each by half an ulp of 1 at most, 2^-25: at random they
+ * walk to sqrt(2 n) 2^-25. Sequences of 128 to 2048 layers were seen to reach 2^-24 sqrt(n); twice
+ * that is allowed, and for few layers what a picture is compared by. */
+double image_rounding(uint32_t n)
+{
+    const double few_layers = 1e-6;
+    return fmax(few_layers, 0x1p-23 * sqrt((double)n));
+}
+
 fm_status image_check_sizes(const fm_image *image, const fm_image *reference, fm_error *err)
 {
     if (image->width_px == reference->width_px && image->height_px == reference->height_px)

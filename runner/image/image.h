@@ -17,6 +17,10 @@ typedef struct fm_image {
 fm_status image_create(fm_image **image, uint32_t width_px, uint32_t height_px, fm_error *err);
 void image_destroy(fm_image *image);
 
+/* What an image in single precision may be off for rounding where up to n fragments of a pixel were
+ * composited. */
+double image_rounding(uint32_t n);
+
 /* FM_INVALID: sizes differ. */
 fm_status image_check_sizes(const fm_image *image, const fm_image *reference, fm_error *err);
 /* FM_INVALID: sizes differ, or a pixel is infinite or no number; the message says which pixel of

@@ -14,7 +14,7 @@
  *     E' <= E + c e + read h + min(half(s' + E), (c + read) h)   front to back
  *     E' <= g E + read (1 + s + E) + half(s' + E)                back to front
  * None of it hangs on the order of the fragments, so it holds in each order that ties allow. What
- * float32 rounds beside is not in it (measure_image_tolerance). */
+ * float32 rounds beside is not in it (image_rounding). */
 #ifndef FM_ROUNDING_H
 #define FM_ROUNDING_H
 

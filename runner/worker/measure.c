@@ -1,16 +1,6 @@
 #include "measure_internal.h"
 
-#include <math.h>
 #include <stdlib.h>
-
-/* A layer rounds the sum and what shows, each by half an ulp of 1 at most, 2^-25: at random they
- * walk to sqrt(2 n) 2^-25. Sequences of 128 to 2048 layers were seen to reach 2^-24 sqrt(n); twice
- * that is allowed, and for few layers what a picture is compared by. */
-double measure_image_tolerance(uint32_t n)
-{
-    const double few_layers = 1e-6;
-    return fmax(few_layers, 0x1p-23 * sqrt((double)n));
-}
 
 fm_status measure_case(fm_measurement *measurement, const fm_measure_desc *desc, fm_error *err)
 {

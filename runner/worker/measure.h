@@ -74,9 +74,6 @@ uint32_t measure_wanted(const fm_method_desc *method, uint32_t k);
 /* Fragments of a pixel that it has places for, as truth_kept counts them: 0 means all. */
 uint32_t measure_places(const fm_method_desc *method, uint32_t k);
 
-/* What a timed image may be from its own fragments for rounding, n being the most of any pixel. */
-double measure_image_tolerance(uint32_t n);
-
 /* FM_IO with is_own: the fragments cannot be kept. */
 fm_status measure_case(fm_measurement *measurement, const fm_measure_desc *desc, fm_error *err);
 void measurement_free(fm_measurement *measurement);

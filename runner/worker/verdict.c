@@ -18,7 +18,7 @@ static bool are_fragments_wrong(fm_error *err, const fm_measurement *m)
 
 bool verdict_is_wrong(fm_error *err, const fm_measurement *measurement, uint32_t traits, uint32_t n)
 {
-    const double allowed = measure_image_tolerance(n);
+    const double allowed = image_rounding(n);
     if ((traits & FM_TRAIT_EXACT) == 0)
         return false;
     if (are_fragments_wrong(err, measurement))

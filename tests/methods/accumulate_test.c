@@ -16,7 +16,7 @@ static const char *const directions[] = { "front-to-back", "back-to-front" };
 /* Quotients by 255 may differ in their last bit, and so may all that float32 does. */
 static double apart_allowed(fm_accumulate format, uint32_t n)
 {
-    return format == FM_ACCUMULATE_FLOAT16 ? 0 : measure_image_tolerance(n);
+    return format == FM_ACCUMULATE_FLOAT16 ? 0 : image_rounding(n);
 }
 
 static void expect_accumulated(const fm_measurement *m, const kit_scene *scene,

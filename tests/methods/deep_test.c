@@ -12,7 +12,7 @@ static void expect_exact(kit_scene *scene, const kit_way *way)
     char where[256];
     kit_tell(where, way);
     if (kit_measure(&m, scene, way)) {
-        const double allowed = measure_image_tolerance(scene->truth->n);
+        const double allowed = image_rounding(scene->truth->n);
         if (m.check.missing + m.check.extra + m.check.misordered + m.lost != 0)
             fail_msg("%s: missing %u, extra %u, misordered %u, lost %u", where,
                      (unsigned)m.check.missing, (unsigned)m.check.extra,

@@ -20,6 +20,7 @@ static const struct {
     int covered; /* pixels with any; ANY: the silhouette's */
     ties ties;   /* of neighbours in a pixel's order */
 } answers[] = {
+    { "ascending", 40, SMALL_RECT, NO_TIES },
     { "coplanar", 12, SMALL_RECT, ALL_TIES },
     { "deep-10000", 10000, 1, NO_TIES },
     { "deep-65536", 65536, 1, NO_TIES },

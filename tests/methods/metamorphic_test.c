@@ -111,7 +111,7 @@ static void expect_same(kit_scene *scene, fm_image *image, const fm_image *other
     kit_tell(where, way);
     if (reference_distance(&off, &compared, &err) != FM_OK)
         fail_msg("%s", err.message);
-    if (!(off <= measure_image_tolerance(scene->truth->n)))
+    if (!(off <= image_rounding(scene->truth->n)))
         fail_msg("%s: %.3g from what truth allows", where, off);
     if (truth_tied_pixels(scene->truth, wanted) == 0 && !(kit_apart(image, other) <= apart))
         fail_msg("%s: %.3g from the other image", where, kit_apart(image, other));
@@ -184,7 +184,7 @@ static void expect_any_layout(kit_scene *scene, const quad_list *list, const fm_
         fm_image *image = picture(scene, method, texts);
         if (image != NULL && first != NULL)
             expect_same(scene, image, first, measure_wanted(method, 5),
-                        measure_image_tolerance(QUADS), &way);
+                        image_rounding(QUADS), &way);
         if (first == NULL)
             first = image;
         else
@@ -226,7 +226,7 @@ static void expect_moved(kit_scene *scene, const quad_list *list, const fm_metho
     fm_image *first = picture(scene, method, "k=5"), *second = picture(&moved, method, "k=5");
     if (first != NULL && second != NULL) {
         fm_image *cut = cut_out(second, other.dx, other.dy);
-        expect_same(scene, cut, first, measure_wanted(method, 5), measure_image_tolerance(QUADS),
+        expect_same(scene, cut, first, measure_wanted(method, 5), image_rounding(QUADS),
                     &way);
         image_destroy(cut);
     }
@@ -259,7 +259,7 @@ static void expect_nothing_behind(kit_scene *scene, const quad_list *list,
     open_list(&more, scene->kit, &other);
     fm_image *first = picture(scene, method, "k=4"), *second = picture(&more, method, "k=4");
     if (first != NULL && second != NULL)
-        expect_same(scene, second, first, wanted, measure_image_tolerance(QUADS), &way);
+        expect_same(scene, second, first, wanted, image_rounding(QUADS), &way);
     image_destroy(first);
     image_destroy(second);
     kit_scene_close(&more);
@@ -283,7 +283,7 @@ static void expect_a_buffer(kit_scene *scene, const quad_list *list, const fm_me
         const kit_way way = { method->id, FM_FEED_RASTER, texts[i] };
         fm_image *image = picture(scene, method, texts[i]);
         if (image != NULL)
-            expect_same(scene, image, a_buffer, UINT32_MAX, measure_image_tolerance(QUADS), &way);
+            expect_same(scene, image, a_buffer, UINT32_MAX, image_rounding(QUADS), &way);
         image_destroy(image);
     }
     image_destroy(a_buffer);

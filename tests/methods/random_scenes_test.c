@@ -93,10 +93,10 @@ static void measure_one(char wrong[600], kit_scene *scene, const kit_way *way)
         snprintf(wrong, 600, "missing %u, extra %u, misordered %u, lost %u in %u pixels",
                  (unsigned)check->missing, (unsigned)check->extra, (unsigned)check->misordered,
                  (unsigned)m.lost, (unsigned)check->wrong_pixels);
-    else if (status == FM_OK && !(m.self_max_abs <= measure_image_tolerance(scene->truth->n)))
+    else if (status == FM_OK && !(m.self_max_abs <= image_rounding(scene->truth->n)))
         snprintf(wrong, 600, "the image is %.3g from its fragments", m.self_max_abs);
     else if (status == FM_OK && !(m.error.region[FM_REGION_VIEWPORT].difference.max_abs <=
-                                  measure_image_tolerance(scene->truth->n)))
+                                  image_rounding(scene->truth->n)))
         snprintf(wrong, 600, "the image is %.3g from what truth allows",
                  m.error.region[FM_REGION_VIEWPORT].difference.max_abs);
     else if (status == FM_OK && m.bytes_allocated != m.bytes_predicted)
