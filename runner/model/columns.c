@@ -102,6 +102,7 @@ const fm_column fm_columns[] = {
     METRIC(TOTAL_MAX_ABS),
     METRIC(TOTAL_SSIM),
     METRIC(TOTAL_FLIP),
+    FACT(REASON),
 };
 /* clang-format on */
 _Static_assert(sizeof fm_columns / sizeof fm_columns[0] == FM_COLUMN_COUNT, "FM_COLUMN_COUNT");
@@ -123,6 +124,7 @@ static const char *const fact_name[] = {
     [FM_FACT_CODE_DRIVER] = "code_driver",
     [FM_FACT_CODE_PLUGIN] = "code_plugin",
     [FM_FACT_CODE_SHADERS] = "code_shaders",
+    [FM_FACT_REASON] = "reason",
 };
 _Static_assert(sizeof fact_name / sizeof fact_name[0] == FM_FACT_COUNT, "one name a fact");
 
