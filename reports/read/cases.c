@@ -25,6 +25,7 @@ static const size_t fact_at[FM_FACT_COUNT] = {
     [FM_FACT_CODE_DRIVER] = SIZE_MAX,
     [FM_FACT_CODE_PLUGIN] = SIZE_MAX,
     [FM_FACT_CODE_SHADERS] = SIZE_MAX,
+    [FM_FACT_REASON] = offsetof(fm_case_row, reason),
 };
 
 #define KEY(field, text)                                                                           \
@@ -63,6 +64,23 @@ static size_t key_index(const char *name)
     return i;
 }
 
+/* Rows of older runs have none. */
+static fm_status check_reason(const fm_case_row *result, const fm_table *table, size_t row,
+                              fm_error *err)
+{
+    const char *path = table->path, *nearest;
+    const uint32_t line = table->lines[row];
+    fm_reason reason;
+    if (!case_reason_parse(&reason, result->reason, &nearest))
+        return fm_fail(err, FM_INVALID, "%s:%u: reason \"%.40s\" is unknown; the nearest is \"%s\"",
+                       path, line, result->reason,
+                       nearest != NULL ? nearest : case_reason_name(FM_REASON_FEED));
+    if (reason != FM_REASON_NONE && result->outcome != FM_CASE_NOT_SUPPORTED)
+        return fm_fail(err, FM_INVALID, "%s:%u: reason \"%s\" of a case that is %s", path, line,
+                       result->reason, result->status);
+    return FM_OK;
+}
+
 static fm_status check(fm_case_row *result, const fm_table *table, size_t row, fm_error *err)
 {
     const char *path = table->path;
@@ -75,7 +93,7 @@ static fm_status check(fm_case_row *result, const fm_table *table, size_t row, f
                        result->id);
     if (result->method[0] == '\0')
         return fm_fail(err, FM_INVALID, "%s:%u: no method", path, line);
-    return FM_OK;
+    return check_reason(result, table, row, err);
 }
 
 static fm_status check_share(double share, const char *name, const fm_table *table, size_t row,

@@ -19,7 +19,8 @@ typedef struct fm_case_row {
     const char *id; /* at most 64 bytes, without '/': names of pictures are made from it */
     const char *status, *message, *method, *method_version, *device, *device_name, *feed;
     const char *scene, *order, *seed, *options; /* options: read by options.h */
-    const char *noisy; /* why its times are not to be relied on; "": no reason is known */
+    const char *reason; /* of not_supported, a word of model/outcome.h; "": of an older run, too */
+    const char *noisy;  /* why its times are not to be relied on; "": no reason is known */
     /* the workload; k is NAN for methods that keep no k nearest */
     double width_px, height_px, k, r, pixel_density, fragment_probability, tessellation;
     /* By fm_metric; NAN for those that summary.csv has no column for. total_rmse of an older run,
@@ -42,9 +43,9 @@ typedef struct fm_case_row {
 /* One row of the table each, in its order, and the place of each id. FM_INVALID, naming file, line
  * and column: another schema; a column is missing, or is unknown and stands before known ones
  * (those of newer programs stand behind them); a number is none, or out of range: times and amounts
- * are finite and not negative, shares at most 1, ends of an interval in order; a status, id or
- * method cannot be; two rows are of one case. FM_NO_MEMORY. The caller frees *cases and the index,
- * after a failure too. */
+ * are finite and not negative, shares at most 1, ends of an interval in order; a status, reason,
+ * id or method cannot be; two rows are of one case. FM_NO_MEMORY. The caller frees *cases and the
+ * index, after a failure too. */
 fm_status cases_read(fm_case_row **cases, fm_text_index *ids, const fm_table *table,
                      const fm_provenance *manifest, fm_error *err);
 

@@ -182,7 +182,8 @@ void blame_words(char words[BLAME_WORDS_BYTES], const fm_blame *blame, const fm_
 {
     words[0] = '\0';
     if (blame->verdict == FM_STABILITY_NOT_SUPPORTED)
-        snprintf(words, BLAME_WORDS_BYTES, "%.150s", row->message);
+        snprintf(words, BLAME_WORDS_BYTES, "%.150s",
+                 row->reason[0] != '\0' ? row->reason : "not recorded");
     else if (blame->verdict == FM_STABILITY_FAILED)
         snprintf(words, BLAME_WORDS_BYTES, "%.150s", row->status);
     for (unsigned bit = 0; trait_words(bit) != NULL; bit++)

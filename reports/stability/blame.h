@@ -53,16 +53,17 @@ const char *stability_name(fm_stability stability);
  *                     where a pixel's are in flight together
  *   multisampled      missing and extra ones
  *   approximate       anything
- * Frames may differ, from each other and from the checked one, only where a pixel's fragments are in
- * flight together, and a method races, takes what comes first, or keeps any one of a tie. Where another trait
- * allows missing ones, too, fewer ties may be lost than are declared. A case is unexplained, too,
- * if it failed, or is not supported without a reason. */
+ * Frames may differ, from each other and from the checked one, only where a pixel's fragments are
+ * in flight together, and a method races, takes what comes first, or keeps any one of a tie. Where
+ * another trait allows missing ones, too, fewer ties may be lost than are declared. A case that
+ * failed is unexplained, too. */
 fm_blame blame_case(const fm_case_row *row);
 /* Nobody said that this happens. */
 bool blame_is_open(const fm_blame *blame);
 
-/* "loses ties, fragments race": why a case is as it is. Of one that is not supported the reason, of
- * a failed one its status; "" of what is right, and of what is unexplained. */
+/* "loses ties, fragments race": why a case is as it is. Of one that is not supported its reason
+ * (older runs did not record it), of a failed one its status; "" of what is right, and of what is
+ * unexplained. */
 void blame_words(char words[BLAME_WORDS_BYTES], const fm_blame *blame, const fm_case_row *row);
 
 #endif

@@ -10,19 +10,46 @@
 
 #include "fragmark/status.h"
 
+/* Why something cannot be done, where it is nobody's fault: one word of a refusal. Words and their
+ * spelling: model/outcome.h. */
+typedef enum fm_reason {
+    FM_REASON_NONE,       /* no refusal */
+    FM_REASON_FEED,       /* not with input that arrives in this way */
+    FM_REASON_SETTING,    /* a value, or values together, that cannot be had */
+    FM_REASON_DEPTH_TEST, /* a test against depths as they are rasterised, which do not grow here */
+    FM_REASON_FEATURE,    /* the device lacks something, in any amount */
+    FM_REASON_DEVICE_LIMIT, /* the device has it, but not so large or so many */
+    FM_REASON_LOOPS,        /* the driver ends loops before they are done */
+    FM_REASON_SUITE_LIMIT,  /* this program, or a library in it, counts no further */
+    FM_REASON_SCENE,        /* what is to be drawn cannot be read, or is not to be drawn so */
+    FM_REASON_DRIVER,       /* the driver or its compiler gives up, or there is none */
+    FM_REASON_COUNT
+} fm_reason;
+
 typedef struct fm_error {
     fm_status status;
+    fm_reason reason; /* of FM_UNSUPPORTED, if fm_refuse said it */
     bool is_own; /* a file that comes with fragmark, or that a run keeps, failed: no plugin is to
                     blame */
     char message[2048];
 } fm_error;
 
-/* Fills *err (which may be NULL) and returns status, so that `return fm_fail(...)` reads well. */
+/* Fills *err (which may be NULL) and returns status, so that `return fm_fail(...)` reads well. The
+ * error has no reason. */
 fm_status fm_fail(fm_error *err, fm_status status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Puts "PREFIX: " before the message of an error that came from below; returns its status. err may
- * be NULL: then nothing is known of the failure, and the answer is FM_INVALID. */
+/* The same with FM_UNSUPPORTED. reason: not FM_REASON_NONE. */
+fm_status fm_refuse(fm_error *err, fm_reason reason, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* A failure from below of what was given, FM_INVALID or FM_IO, becomes a refusal with its message;
+ * any other status stays. Returns what it is now. err may be NULL. */
+fm_status fm_error_refuse(fm_error *err, fm_status status, fm_reason reason);
+
+/* Puts "PREFIX: " before the message of an error that came from below; returns its status. Its
+ * reason stays. err may be NULL: then nothing is known of the failure, and the answer is
+ * FM_INVALID. */
 fm_status fm_error_prefix(fm_error *err, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 

@@ -138,9 +138,9 @@ static fm_status next_band(fm_band *band, const truth_run *capture, uint64_t fir
            capture->offsets[last + 1] - capture->offsets[first] <= BAND_RECORDS)
         last++;
     if (last == first)
-        return fm_fail(capture->err, FM_UNSUPPORTED,
-                       "truth: a pixel has %u fragments, the most is %d", capture->counts[first],
-                       BAND_RECORDS);
+        return fm_refuse(capture->err, FM_REASON_SUITE_LIMIT,
+                         "truth: a pixel has %u fragments, the most is %d", capture->counts[first],
+                         BAND_RECORDS);
     *band = (fm_band){ .first = (uint32_t)first, .pixels = (uint32_t)(last - first) };
     return FM_OK;
 }

@@ -24,9 +24,10 @@
  * know of each other.
  * Errors: functions that can fail return a status and fill *err, which may be NULL. Messages name
  * the buffer, image or pipeline. FM_DEVICE_LOST: the driver or the GPU failed; then the frame
- * is ended if there is one, and only destroy functions and close may follow. FM_UNSUPPORTED: this
- * device cannot do it, and nothing was done; a row of the results says so and is no failure. What
- * only a mistake in the caller can break (bounds, a missing pipeline) is asserted. */
+ * is ended if there is one, and only destroy functions and close may follow. FM_UNSUPPORTED, by
+ * fm_refuse with its reason: this device cannot do it, and nothing was done; a row of the results
+ * says so and is no failure. What only a mistake in the caller can break (bounds, a missing
+ * pipeline) is asserted. */
 #ifndef FM_DEVICE_H
 #define FM_DEVICE_H
 

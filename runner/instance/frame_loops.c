@@ -77,10 +77,10 @@ static fm_status judge_end(const frame_run *frame, const loop_end *end, uint32_t
     if (!end->is_ours || end->is_counted || end->total < 0 || iterations < end->max ||
         instance->totals[end->total] == 0)
         return FM_OK;
-    return fm_fail(frame->err, FM_UNSUPPORTED,
-                   "%s: total '%s' is still %" PRIu64 " after %u iterations", instance->method->id,
-                   instance->method->totals[end->total].name, instance->totals[end->total],
-                   iterations);
+    return fm_refuse(frame->err, FM_REASON_SUITE_LIMIT,
+                     "%s: total '%s' is still %" PRIu64 " after %u iterations",
+                     instance->method->id, instance->method->totals[end->total].name,
+                     instance->totals[end->total], iterations);
 }
 
 static fm_status run_loop(frame_run *frame, const fm_loop *loop, fm_next *next)

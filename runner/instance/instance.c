@@ -27,9 +27,9 @@ static fm_status need(const fm_instance *instance, uint32_t features, fm_error *
     const uint32_t missing = features & ~instance->device->caps.features;
     for (size_t i = 0; i < sizeof feature_words / sizeof feature_words[0]; i++)
         if ((missing & feature_words[i].feature) != 0)
-            return fm_fail(err, FM_UNSUPPORTED, "%s needs %s, which %s does not have",
-                           instance->method->id, feature_words[i].words,
-                           instance->device->caps.name);
+            return fm_refuse(err, FM_REASON_FEATURE, "%s needs %s, which %s does not have",
+                             instance->method->id, feature_words[i].words,
+                             instance->device->caps.name);
     return FM_OK;
 }
 
@@ -49,8 +49,8 @@ static fm_status check_device(fm_instance *instance, fm_error *err)
     if (status == FM_OK && any_exclusive(method) && !instance->is_spin_locked) {
         status = need(instance, FM_FEATURE_INTERLOCK, err);
         if (status == FM_OK && instance->desc.stage->feed != FM_FEED_RASTER)
-            status = fm_fail(err, FM_UNSUPPORTED,
-                             "lock=interlock: only fragment shaders have an interlock");
+            status = fm_refuse(err, FM_REASON_SETTING,
+                               "lock=interlock: only fragment shaders have an interlock");
     }
     for (size_t i = 0; i < instance->resource_count && status == FM_OK; i++) {
         const fm_resource *resource = &method->resources[i];
@@ -59,10 +59,10 @@ static fm_status check_device(fm_instance *instance, fm_error *err)
         const uint32_t possible = is_depth ? caps->depth_samples : caps->colour_samples;
         const uint32_t samples = resource_samples(instance, resource);
         if (samples > 1 && (samples >= 32 || (possible >> samples & 1u) == 0))
-            status = fm_fail(err, FM_UNSUPPORTED,
-                             "%s: resource '%s' has %u samples, which %s "
-                             "does not have",
-                             method->id, resource->name, samples, caps->name);
+            status = fm_refuse(err, FM_REASON_DEVICE_LIMIT,
+                               "%s: resource '%s' has %u samples, which %s "
+                               "does not have",
+                               method->id, resource->name, samples, caps->name);
     }
     return status;
 }

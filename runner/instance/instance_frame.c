@@ -88,11 +88,11 @@ fm_status instance_cut(const fm_instance *instance, uint32_t cut, fm_error *err)
         snprintf(k, sizeof k, ", k = %u", workload->k);
     for (size_t i = 0; i < instance->pass_count; i++)
         if ((cut >> i & 1u) != 0)
-            return fm_fail(err, FM_UNSUPPORTED,
-                           "n = %u%s: the loops of pass '%s' need more than the %u iterations "
-                           "after which this driver ends them",
-                           workload->n, k, instance->method->passes[i].name,
-                           instance->device->caps.loop_limit);
+            return fm_refuse(err, FM_REASON_LOOPS,
+                             "n = %u%s: the loops of pass '%s' need more than the %u iterations "
+                             "after which this driver ends them",
+                             workload->n, k, instance->method->passes[i].name,
+                             instance->device->caps.loop_limit);
     return FM_OK;
 }
 

@@ -129,9 +129,9 @@ static fm_status build_pass(built_pass *built, fm_instance *instance, const fm_p
     }
     pass_collect_uses(built, instance, pass);
     if (built->is_overfull)
-        return fm_fail(err, FM_UNSUPPORTED,
-                       "%s: pass '%s': more than %d resources, the feed's own included",
-                       instance->method->id, pass->name, INSTANCE_USES_MAX);
+        return fm_refuse(err, FM_REASON_SUITE_LIMIT,
+                         "%s: pass '%s': more than %d resources, the feed's own included",
+                         instance->method->id, pass->name, INSTANCE_USES_MAX);
     return create_pipelines(built, instance, pass, err);
 }
 

@@ -109,6 +109,7 @@ const fm_column fm_columns[] = {
     METRIC(LOST_AT_ONE),
     METRIC(SELF_MAX_ABS),
     METRIC(SELF_BEYOND),
+    FACT(REASON),
 };
 /* clang-format on */
 _Static_assert(sizeof fm_columns / sizeof fm_columns[0] == FM_COLUMN_COUNT, "FM_COLUMN_COUNT");
@@ -130,6 +131,7 @@ static const char *const fact_name[] = {
     [FM_FACT_CODE_DRIVER] = "code_driver",
     [FM_FACT_CODE_PLUGIN] = "code_plugin",
     [FM_FACT_CODE_SHADERS] = "code_shaders",
+    [FM_FACT_REASON] = "reason",
 };
 _Static_assert(sizeof fact_name / sizeof fact_name[0] == FM_FACT_COUNT, "one name a fact");
 

@@ -28,6 +28,8 @@ typedef enum fm_fact {
     FM_FACT_CODE_PLUGIN,  /* of the method's plugin and the floor's */
     FM_FACT_CODE_SHADERS, /* of all GLSL that was read; empty: none was */
     FM_FACT_NOISY,        /* why its times are not to be relied on; empty: no reason is known */
+    FM_FACT_REASON,       /* case_reason_name of a case that is not_supported; empty: of others,
+                             and of older runs */
     FM_FACT_COUNT
 } fm_fact;
 
@@ -49,7 +51,7 @@ typedef struct fm_column {
 } fm_column;
 
 enum {
-    FM_COLUMN_COUNT = 96,
+    FM_COLUMN_COUNT = 97,
     FM_COLUMN_REQUIRED =
         51 /* the first of them: files of schema 1 have these, later ones may lack */
 };

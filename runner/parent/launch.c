@@ -128,8 +128,9 @@ static json_t *result_of_death(const ending *end, const fm_launch_desc *desc)
              input[0] != '\0' ? "; its scene reads " : "", input,
              words[0] != '\0' ? "; its last words: \"" : "", words, words[0] != '\0' ? "\"" : "");
     if (end->process.is_timed_out)
-        return answer_make(FM_CASE_TIMEOUT, message);
-    return answer_make(died_of_memory(end, desc) ? FM_CASE_OUT_OF_MEMORY : FM_CASE_CRASH, message);
+        return answer_make(FM_CASE_TIMEOUT, FM_REASON_NONE, message);
+    return answer_make(died_of_memory(end, desc) ? FM_CASE_OUT_OF_MEMORY : FM_CASE_CRASH,
+                       FM_REASON_NONE, message);
 }
 
 /* Whether a worker that says it could not write its answer speaks the truth: a plugin may exit with
@@ -155,9 +156,11 @@ static json_t *read_answer(char *why, size_t room_bytes, const fm_launch_desc *d
     }
     json_t *result = json_loadb(bytes, count, JSON_REJECT_DUPLICATES, &fault);
     free(bytes);
-    const fm_status checked =
-        result != NULL ? answer_check(result, desc->frames, &below)
-                       : fm_fail(&below, FM_INVALID, "line %d: %s", fault.line, fault.text);
+    fm_status checked = result != NULL
+                            ? answer_check(result, desc->frames, &below)
+                            : fm_fail(&below, FM_INVALID, "line %d: %s", fault.line, fault.text);
+    if (checked == FM_OK)
+        checked = answer_check_reason(result, &below);
     if (checked == FM_OK)
         return result;
     json_decref(result);
@@ -170,7 +173,7 @@ static json_t *result_of_nonsense(const ending *end, const char *why)
     char message[768];
     snprintf(message, sizeof message, "the worker's result cannot be used: %.600s (exit status %d)",
              why, WEXITSTATUS(end->process.wait_status));
-    return answer_make(FM_CASE_CRASH, message);
+    return answer_make(FM_CASE_CRASH, FM_REASON_NONE, message);
 }
 
 /* Of a worker that was neither interrupted nor out of time. */

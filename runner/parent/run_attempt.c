@@ -77,7 +77,7 @@ static fm_status note_death(run_state *run, const run_attempt *attempt, char **d
     progress_tell(&run->progress, attempt->current, why);
     if (attempt->case_index == RUN_NO_CASE)
         return FM_OK;
-    json_t *told = answer_make(answer_status(result), *death);
+    json_t *told = answer_make(answer_status(result), answer_reason(result), *death);
     if (told != NULL) /* other code is not to answer for it */
         run_guess_code(run, attempt->case_index, told);
     const fm_status status =

@@ -41,7 +41,7 @@ static fm_status fail_truth(run_state *run, size_t job, const json_t *result, fm
         uint32_t launch = 0;
         while (run->results->cases[i].launches[launch].is_done)
             launch++;
-        json_t *verdict = answer_make(answer_status(result), message);
+        json_t *verdict = answer_make(answer_status(result), answer_reason(result), message);
         status = run_end_launch(run, i, launch, verdict, err);
         json_decref(verdict);
     }

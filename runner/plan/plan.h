@@ -34,6 +34,7 @@ typedef struct fm_case {
     fm_case_status skip_status; /* what is then recorded: FM_CASE_NOT_SUPPORTED (k above k_max, a
                                    feed or an option's value that the method does not have, a mesh
                                    that cannot be read), or FM_CASE_PLUGIN_ERROR (it was refused) */
+    fm_reason skip_reason;      /* with FM_CASE_NOT_SUPPORTED its word; else FM_REASON_NONE */
     bool is_unread;             /* it is skipped because its scene's file cannot be read */
     bool no_image;              /* its picture is not kept; no part of its id */
 } fm_case;

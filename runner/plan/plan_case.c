@@ -1,5 +1,6 @@
 #include "plan_case.h"
 
+#include <assert.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -154,22 +155,24 @@ static void list_names(fm_text *why, const char *const *names, size_t count)
         text_add(why, "%s%s", i > 0 ? ", " : " ", names[i]);
 }
 
-/* Why a case cannot run, one reason a function, which adds to *why; nothing, if it can. */
+/* Why a case cannot run, one check a function, which adds to *why and returns the reason;
+ * FM_REASON_NONE: it can. */
 
-static void refuse_feed(fm_text *why, const fm_case *made, const fm_plan_point *point)
+static fm_reason refuse_feed(fm_text *why, const fm_case *made, const fm_plan_point *point)
 {
     const fm_method_desc *method = point->entry->plugin->method;
     const char *taken[FM_FEED_COUNT + 1];
     const size_t count = feed_names(taken, method_feeds(method));
     if ((method_feeds(method) & feed_from_name(made->feed)) != 0)
-        return;
+        return FM_REASON_NONE;
     text_add(why, "feed '%s': the method takes", made->feed);
     list_names(why, taken, count);
+    return FM_REASON_FEED;
 }
 
 /* Frames are for their own device and from their own generator, fragments for and from all others.
  */
-static void refuse_place(fm_text *why, const fm_case *made, const fm_plan_point *point)
+static fm_reason refuse_place(fm_text *why, const fm_case *made, const fm_plan_point *point)
 {
     const uint32_t feed = feed_from_name(made->feed);
     const bool has_frames = generator_makes_frames(made->settings.generator);
@@ -178,21 +181,27 @@ static void refuse_place(fm_text *why, const fm_case *made, const fm_plan_point 
     else if (has_frames != (feed == FM_FEED_FRAMES))
         text_add(why, "feed '%s': the scene is made of %s", made->feed,
                  has_frames ? "frames" : "fragments");
+    else
+        return FM_REASON_NONE;
+    return FM_REASON_FEED;
 }
 
-static void refuse_k(fm_text *why, const fm_case *made, const fm_plan_point *point)
+static fm_reason refuse_k(fm_text *why, const fm_case *made, const fm_plan_point *point)
 {
     const fm_method_desc *method = point->entry->plugin->method;
     const uint32_t k = made->settings.k;
     if (!plugin_has_k(method))
-        return;
+        return FM_REASON_NONE;
     if (k == 0)
         text_add(why, "k = none: the method keeps the k nearest");
     else if (method->k_max != 0 && k > method->k_max)
         text_add(why, "k = %u: the method's largest is %u", k, method->k_max);
+    else
+        return FM_REASON_NONE;
+    return FM_REASON_SETTING;
 }
 
-static void refuse_choice(fm_text *why, const fm_case *made, const fm_plan_point *point)
+static fm_reason refuse_choice(fm_text *why, const fm_case *made, const fm_plan_point *point)
 {
     const fm_method_desc *method = point->entry->plugin->method;
     for (size_t i = 0; i < made->choice_count; i++) {
@@ -202,36 +211,42 @@ static void refuse_choice(fm_text *why, const fm_case *made, const fm_plan_point
             continue;
         text_add(why, "%s = %s: the method has", choice->name, choice->value);
         list_names(why, option->values, FM_MAX_OPTION_VALUES);
-        return;
+        return FM_REASON_SETTING;
     }
+    return FM_REASON_NONE;
 }
 
-static void refuse_passes(fm_text *why, const fm_case *made, const fm_plan_point *point)
+static fm_reason refuse_passes(fm_text *why, const fm_case *made, const fm_plan_point *point)
 {
     const fm_method_desc *method = point->entry->plugin->method;
     fm_error err;
-    if (culling_check(method, &made->settings, feed_from_name(made->feed), &err) != FM_OK)
-        text_add(why, "%s", err.message);
+    if (culling_check(method, &made->settings, feed_from_name(made->feed), &err) == FM_OK)
+        return FM_REASON_NONE;
+    text_add(why, "%s", err.message);
+    return err.reason;
 }
 
 /* Other than front to back needs a method that can hand over so, which its traits say. */
-static void refuse_composite(fm_text *why, const fm_case *made, const fm_plan_point *point)
+static fm_reason refuse_composite(fm_text *why, const fm_case *made, const fm_plan_point *point)
 {
     const uint32_t traits = point->entry->plugin->method->traits;
     if (made->settings.composite == FM_COMPOSITE_FRONT_TO_BACK ||
         (traits & FM_TRAIT_EMITS_EITHER) != 0)
-        return;
+        return FM_REASON_NONE;
     text_add(why, "composite = back-to-front: %s hands over %s", made->method,
              (traits & FM_TRAIT_EMITS_BACK) != 0 ? "from both ends" : "front to back");
+    return FM_REASON_SETTING;
 }
 
-static void refuse_method(fm_text *why, const fm_case *made, const fm_plan_point *point)
+static fm_reason refuse_method(fm_text *why, const fm_case *made, const fm_plan_point *point)
 {
-    static void (*const reasons[])(fm_text *, const fm_case *, const fm_plan_point *) = {
+    static fm_reason (*const checks[])(fm_text *, const fm_case *, const fm_plan_point *) = {
         refuse_feed, refuse_place, refuse_k, refuse_choice, refuse_passes, refuse_composite,
     };
-    for (size_t i = 0; i < sizeof reasons / sizeof reasons[0] && why->length == 0; i++)
-        reasons[i](why, made, point);
+    fm_reason reason = FM_REASON_NONE;
+    for (size_t i = 0; i < sizeof checks / sizeof checks[0] && reason == FM_REASON_NONE; i++)
+        reason = checks[i](why, made, point);
+    return reason;
 }
 
 static void remember_mesh(fm_mesh_memo *memo, const char *path)
@@ -251,10 +266,13 @@ static fm_status make_skip(fm_case *made, const fm_plan_point *point, fm_error *
     if (entry->plugin == NULL)
         text_add(&why, "%s", entry->error.message);
     else
-        refuse_method(&why, made, point);
+        made->skip_reason = refuse_method(&why, made, point);
     made->is_unread = why.length == 0 && has_file && point->memo->error.status != FM_OK;
     if (made->is_unread)
+        made->skip_reason = FM_REASON_SCENE;
+    if (made->is_unread)
         text_add(&why, "%s: %s", settings_file_key(&made->settings), point->memo->error.message);
+    assert(why.length == 0 || entry->plugin == NULL || made->skip_reason != FM_REASON_NONE);
     made->skip = why.bytes;
     made->skip_status = entry->plugin == NULL ? FM_CASE_PLUGIN_ERROR : FM_CASE_NOT_SUPPORTED;
     return why.failed ? fm_fail(err, FM_NO_MEMORY, "no memory for a case's reason") : FM_OK;

@@ -32,9 +32,9 @@ static fm_status check_room(const fm_method_desc *method, fm_error *err)
     for (size_t i = 0; i < pass_count(method); i++)
         has_room = has_room && access_count(method->passes[i].reads) < FM_MAX_ACCESSES;
     if (!has_room)
-        return fm_fail(err, FM_UNSUPPORTED,
-                       "culling = occupancy: %s leaves no room for %d passes and %d resources",
-                       method->id, PASSES_ADDED, RESOURCES_ADDED);
+        return fm_refuse(err, FM_REASON_SUITE_LIMIT,
+                         "culling = occupancy: %s leaves no room for %d passes and %d resources",
+                         method->id, PASSES_ADDED, RESOURCES_ADDED);
     return FM_OK;
 }
 
@@ -93,20 +93,22 @@ fm_status culling_check(const fm_method_desc *method, const fm_settings *setting
     if (settings->culling == FM_CULLING_NONE)
         return depth_check(method, settings, err);
     if (method->keeps != FM_KEEPS_K_NEAREST)
-        return fm_fail(err, FM_UNSUPPORTED,
-                       "culling = occupancy: the method keeps other fragments than the k nearest");
+        return fm_refuse(
+            err, FM_REASON_SETTING,
+            "culling = occupancy: the method keeps other fragments than the k nearest");
     if (method->k_total != NULL)
-        return fm_fail(err, FM_UNSUPPORTED,
-                       "culling = occupancy: the method counts all fragments to choose its k");
+        return fm_refuse(err, FM_REASON_SETTING,
+                         "culling = occupancy: the method counts all fragments to choose its k");
     if (feed != FM_FEED_RASTER)
-        return fm_fail(err, FM_UNSUPPORTED, "culling = occupancy: feed raster only");
+        return fm_refuse(err, FM_REASON_SETTING, "culling = occupancy: feed raster only");
     if (settings->k > settings->cull_words * BUCKETS_PER_WORD)
-        return fm_fail(err, FM_UNSUPPORTED,
-                       "cull_words = %u: %u buckets are fewer than k = %u; nothing can be culled",
-                       settings->cull_words, settings->cull_words * BUCKETS_PER_WORD, settings->k);
+        return fm_refuse(err, FM_REASON_SETTING,
+                         "cull_words = %u: %u buckets are fewer than k = %u; nothing can be culled",
+                         settings->cull_words, settings->cull_words * BUCKETS_PER_WORD,
+                         settings->k);
     if (words > UINT32_MAX)
-        return fm_fail(err, FM_UNSUPPORTED, "cull_words = %u: the map is over 2^32 words",
-                       settings->cull_words);
+        return fm_refuse(err, FM_REASON_SUITE_LIMIT, "cull_words = %u: the map is over 2^32 words",
+                         settings->cull_words);
     const fm_status status = check_room(method, err);
     return status == FM_OK ? check_depth(method, settings, err) : status;
 }

@@ -5,10 +5,10 @@ fm_status depth_check_pass(const fm_pass *pass, const fm_settings *settings, fm_
     if (settings->depth == FM_DEPTH_NORMAL || pass->kind != FM_PASS_SCENE ||
         pass->state.depth_test == FM_COMPARE_OFF)
         return FM_OK;
-    return fm_fail(err, FM_UNSUPPORTED,
-                   "depth = reversed: pass '%s' tests the rasterised depth, which falls with "
-                   "distance, against the attachment '%s'",
-                   pass->name, pass->state.depth_stencil);
+    return fm_refuse(err, FM_REASON_DEPTH_TEST,
+                     "depth = reversed: pass '%s' tests the rasterised depth, which falls with "
+                     "distance, against the attachment '%s'",
+                     pass->name, pass->state.depth_stencil);
 }
 
 fm_status depth_check(const fm_method_desc *method, const fm_settings *settings, fm_error *err)

@@ -25,6 +25,7 @@ typedef struct field_rule {
 static const field_rule answer_fields[] = {
     { "status", JSON_STRING, NAME_BYTES },
     { "message", JSON_STRING, FM_MESSAGE_MAX_BYTES },
+    { "reason", JSON_STRING, NAME_BYTES },
     { "is_runs_fault", JSON_TRUE, 0 },
     { "is_truth_unusable", JSON_TRUE, 0 },
     { "is_starved", JSON_TRUE, 0 },
@@ -301,6 +302,30 @@ static fm_status check_status(const json_t *answer, fm_error *err)
     return FM_OK;
 }
 
+/* It may be missing. */
+static fm_status check_reason(const json_t *answer, fm_error *err)
+{
+    const char *name = json_string_value(json_object_get(answer, "reason")), *nearest;
+    fm_reason reason;
+    if (name == NULL)
+        return FM_OK;
+    if (!case_reason_parse(&reason, name, &nearest))
+        return fm_fail(err, FM_INVALID, "'reason' is '%.40s'; the nearest is '%s'", name,
+                       nearest != NULL ? nearest : case_reason_name(FM_REASON_FEED));
+    if (reason != FM_REASON_NONE && answer_status(answer) != FM_CASE_NOT_SUPPORTED)
+        return fm_fail(err, FM_INVALID, "'reason' is '%s', and 'status' '%s'", name,
+                       case_status_name(answer_status(answer)));
+    return FM_OK;
+}
+
+fm_status answer_check_reason(const json_t *answer, fm_error *err)
+{
+    if (answer_status(answer) == FM_CASE_NOT_SUPPORTED && answer_reason(answer) == FM_REASON_NONE)
+        return fm_fail(err, FM_INVALID, "'status' is '%s' without a 'reason': %.300s",
+                       case_status_name(FM_CASE_NOT_SUPPORTED), answer_message(answer));
+    return FM_OK;
+}
+
 static fm_status check_code(const json_t *answer, fm_error *err)
 {
     fm_code code;
@@ -317,6 +342,8 @@ fm_status answer_check(const json_t *answer, uint32_t frames, fm_error *err)
     fm_status status = check_fields(answer, answer_fields, COUNT_OF(answer_fields), err);
     if (status == FM_OK)
         status = check_status(answer, err);
+    if (status == FM_OK)
+        status = check_reason(answer, err);
     if (status == FM_OK)
         status = check_code(answer, err);
     if (status == FM_OK)

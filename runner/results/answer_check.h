@@ -17,4 +17,8 @@
  * worker's result cannot be used: "; FM_NO_MEMORY. */
 fm_status answer_check(const json_t *answer, uint32_t frames, fm_error *err);
 
+/* What is asked of a worker beside that, and not of journals, which older programs wrote: a case
+ * that is not supported has a reason. After answer_check; FM_INVALID. */
+fm_status answer_check_reason(const json_t *answer, fm_error *err);
+
 #endif

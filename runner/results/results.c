@@ -43,8 +43,10 @@ static fm_status create_cases(fm_results *results, fm_error *err)
         if (results->cases[i].launches == NULL)
             return fm_fail(err, FM_NO_MEMORY, "no memory for %u launches", plan->launches);
         const fm_case *planned = &plan->cases[i];
-        if (planned->skip != NULL)
+        if (planned->skip != NULL) {
             results->cases[i].status = planned->skip_status;
+            results->cases[i].reason = planned->skip_reason;
+        }
         snprintf(results->cases[i].message, sizeof results->cases[i].message, "%s",
                  planned->skip != NULL ? planned->skip : "the run was stopped before its turn");
     }
@@ -268,12 +270,13 @@ static void keep_device(fm_case_result *kept, const json_t *answer)
     kept->is_software = device.is_software;
 }
 
-static void worsen(fm_case_result *kept, uint32_t launch, fm_case_status status,
+static void worsen(fm_case_result *kept, uint32_t launch, fm_case_status status, fm_reason reason,
                    const char *message)
 {
     if (status < kept->status || (status == kept->status && kept->message[0] != '\0'))
         return;
     kept->status = status;
+    kept->reason = reason;
     if (launch == 0 || message[0] == '\0')
         snprintf(kept->message, sizeof kept->message, "%s", message);
     else
@@ -325,7 +328,8 @@ static void compare_images(fm_results *results, size_t case_index, uint32_t laun
     if ((traits & FM_TRAIT_EXACT) == 0 || (traits & FM_TRAIT_RACY) != 0)
         return;
     if (kept->image_count > 1)
-        worsen(kept, launch, FM_CASE_WRONG_IMAGE, "drew another image than the checked launch 0");
+        worsen(kept, launch, FM_CASE_WRONG_IMAGE, FM_REASON_NONE,
+               "drew another image than the checked launch 0");
 }
 
 static fm_status keep(fm_results *results, size_t case_index, uint32_t launch, const json_t *answer,
@@ -335,7 +339,7 @@ static fm_status keep(fm_results *results, size_t case_index, uint32_t launch, c
     const fm_case_status status = answer_status(answer);
     size_t index;
     const json_t *sample;
-    worsen(kept, launch, status, answer_message(answer));
+    worsen(kept, launch, status, answer_reason(answer), answer_message(answer));
     keep_device(kept, answer);
     kept->launches[launch].is_done = true;
     kept->done++;

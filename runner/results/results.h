@@ -31,7 +31,8 @@ typedef struct fm_launch_state {
 
 typedef struct fm_case_result {
     fm_case_status status;     /* the worst so far */
-    char message[2048];        /* of that status */
+    fm_reason reason;          /* of that status */
+    char message[2048];        /* the same */
     fm_launch_state *launches; /* [plan->launches] */
     uint32_t done;             /* launches that ended */
     uint64_t *images;          /* [image_count]: hashes of different images, of all timed frames */

@@ -240,6 +240,9 @@ static void write_fact(fm_text *text, const row_state *row, fm_fact fact)
     case FM_FACT_CODE_SHADERS:
         write_code(text, row, FM_CODE_SHADERS);
         break;
+    case FM_FACT_REASON:
+        csv_add(text, case_reason_name(row->result->reason));
+        break;
     case FM_FACT_COUNT:
         break;
     }

@@ -202,8 +202,8 @@ static fm_status mesh_hull(fm_solid *solid, const fm_scene *scene, fm_error *err
     uint32_t *numbers = NULL;
     cloud all = { .points = NULL };
     if (count > (uint32_t)INT_MAX / 3)
-        return fm_fail(err, FM_UNSUPPORTED, "the hull of %u vertices: qhull takes %d at most",
-                       count, INT_MAX / 3);
+        return fm_refuse(err, FM_REASON_SUITE_LIMIT,
+                         "the hull of %u vertices: qhull takes %d at most", count, INT_MAX / 3);
     fm_status status = FM_OK;
     all.points = malloc(((size_t)count + 1) * sizeof all.points[0]);
     numbers = malloc(((size_t)count + 1) * sizeof *numbers);

@@ -164,8 +164,9 @@ static fm_status create_replay(fm_stage *stage, const fm_truth *truth, fm_error 
     const uint64_t count = truth->fragment_count;
     const uint64_t pixels = (uint64_t)truth->width_px * truth->height_px;
     if (count > UINT32_MAX)
-        return fm_fail(err, FM_UNSUPPORTED,
-                       "%" PRIu64 " fragments: compute feeds replay %u at most", count, UINT32_MAX);
+        return fm_refuse(err, FM_REASON_SUITE_LIMIT,
+                         "%" PRIu64 " fragments: compute feeds replay %u at most", count,
+                         UINT32_MAX);
     replay_list list = { .fragments = malloc((count + 1) * sizeof list.fragments[0]),
                          .pixels = malloc((count + 1) * sizeof list.pixels[0]),
                          .offsets = malloc((pixels + 1) * sizeof list.offsets[0]) };
@@ -199,9 +200,9 @@ static fm_status count_invocations(fm_stage *stage, const fm_truth *truth, fm_er
     else
         stage->invocations = per_pixel ? rect_pixels : rect_pixels * stage->scene->n;
     if (stage->invocations > UINT32_MAX)
-        return fm_fail(err, FM_UNSUPPORTED,
-                       "%" PRIu64 " invocations: a compute feed has %u at most", stage->invocations,
-                       UINT32_MAX);
+        return fm_refuse(err, FM_REASON_SUITE_LIMIT,
+                         "%" PRIu64 " invocations: a compute feed has %u at most",
+                         stage->invocations, UINT32_MAX);
     return FM_OK;
 }
 
@@ -237,9 +238,9 @@ static fm_status look_at_triangles(fm_stage *stage, fm_error *err)
 {
     const fm_scene *scene = stage->scene;
     if (scene->triangles > TRIANGLES_MAX)
-        return fm_fail(err, FM_UNSUPPORTED,
-                       "%" PRIu64 " triangles: the feed triangles carries %u at most",
-                       scene->triangles, TRIANGLES_MAX);
+        return fm_refuse(err, FM_REASON_SUITE_LIMIT,
+                         "%" PRIu64 " triangles: the feed triangles carries %u at most",
+                         scene->triangles, TRIANGLES_MAX);
     stage->view = triangles_view(scene);
     return FM_OK;
 }

@@ -31,7 +31,7 @@ fm_status stage_create_cover(fm_stage *stage, fm_geometry geometry, fm_error *er
     fm_solid solid = { 0 };
     fm_stage_cover *cover = &stage->covers[geometry];
     if (stage->feed != FM_FEED_RASTER)
-        return fm_fail(err, FM_UNSUPPORTED, "a cover of the scene is drawn: feed raster only");
+        return fm_refuse(err, FM_REASON_FEED, "a cover of the scene is drawn: feed raster only");
     if (cover->indices != NULL)
         return FM_OK;
     fm_status status = geometry == FM_GEOMETRY_HULL ? make_hull(&solid, stage, err)

@@ -157,9 +157,9 @@ fm_status stage_groups(uint32_t groups[3], const fm_device_caps *caps, uint64_t 
     const uint64_t wide = needed < caps->max_groups[0] ? needed : caps->max_groups[0];
     const uint64_t high = wide > 0 ? (needed + wide - 1) / wide : 0;
     if (high > caps->max_groups[1])
-        return fm_fail(err, FM_UNSUPPORTED,
-                       "%" PRIu64 " workgroups; a dispatch has %u x %u at most", needed,
-                       caps->max_groups[0], caps->max_groups[1]);
+        return fm_refuse(err, FM_REASON_DEVICE_LIMIT,
+                         "%" PRIu64 " workgroups; a dispatch has %u x %u at most", needed,
+                         caps->max_groups[0], caps->max_groups[1]);
     groups[0] = (uint32_t)wide;
     groups[1] = (uint32_t)high;
     groups[2] = 1;

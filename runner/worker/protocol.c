@@ -252,15 +252,18 @@ void answer_set_code(json_t *answer, const fm_code *code)
     json_object_set_new(answer, "code", code_to_json(code));
 }
 
-void answer_set_verdict(json_t *answer, fm_case_status status, const char *message)
+void answer_set_verdict(json_t *answer, fm_case_status status, fm_reason reason,
+                        const char *message)
 {
     json_object_set_new(answer, "status", json_string(case_status_name(status)));
+    if (reason != FM_REASON_NONE)
+        json_object_set_new(answer, "reason", json_string(case_reason_name(reason)));
     json_object_set_new(answer, "message", any_text(message));
 }
 
 void answer_set_runs_fault(json_t *answer, const char *message)
 {
-    answer_set_verdict(answer, FM_CASE_SKIPPED, message);
+    answer_set_verdict(answer, FM_CASE_SKIPPED, FM_REASON_NONE, message);
     json_object_set_new(answer, "is_runs_fault", json_true());
 }
 
@@ -341,11 +344,11 @@ void answer_add_sample_named(json_t *samples, uint32_t frame, const char *metric
                                     "value", value, "unit", info != NULL ? info->unit : ""));
 }
 
-json_t *answer_make(fm_case_status status, const char *message)
+json_t *answer_make(fm_case_status status, fm_reason reason, const char *message)
 {
     json_t *answer = json_object();
     if (answer != NULL)
-        answer_set_verdict(answer, status, message);
+        answer_set_verdict(answer, status, reason, message);
     return answer;
 }
 
@@ -376,6 +379,13 @@ fm_case_status answer_status(const json_t *answer)
     fm_case_status status = FM_CASE_CRASH;
     case_status_parse(&status, json_string_value(json_object_get(answer, "status")));
     return status;
+}
+
+fm_reason answer_reason(const json_t *answer)
+{
+    fm_reason reason = FM_REASON_NONE;
+    case_reason_parse(&reason, text_in(answer, "reason"), NULL);
+    return reason;
 }
 
 bool answer_is_runs_fault(const json_t *answer)

@@ -18,6 +18,8 @@
  *
  * The answer is written at the end; a worker that dies leaves none:
  *   { "status": "a word of model/outcome.h", "message": "",
+ *     "reason": "another one",              with not_supported, and only with it; journals of older
+ *                                           programs have none
  *     "is_runs_fault": false,               true: the run's own files failed; nothing was measured,
  *                                           and status is "skipped"
  *     "is_truth_unusable": false,           true, with is_runs_fault: the truth file is to be made
@@ -100,8 +102,10 @@ void request_free(fm_read_request *read);
 
 void answer_set_device(json_t *answer, const fm_device_caps *caps);
 void answer_set_code(json_t *answer, const fm_code *code);
-/* Bytes of the message that are no UTF-8 become '?'. */
-void answer_set_verdict(json_t *answer, fm_case_status status, const char *message);
+/* reason: of FM_CASE_NOT_SUPPORTED; FM_REASON_NONE of others. Bytes of the message that are no
+ * UTF-8 become '?'. */
+void answer_set_verdict(json_t *answer, fm_case_status status, fm_reason reason,
+                        const char *message);
 /* The run's own files failed: no verdict on the method. */
 void answer_set_runs_fault(json_t *answer, const char *message);
 /* Beside that: it was the truth file, which is damaged or cannot be read. */
@@ -118,8 +122,8 @@ void answer_set_modelled(json_t *answer, json_t *scene, json_t *passes, json_t *
 void answer_set_mesh(json_t *answer, const char *file, const fm_mesh_facts *facts);
 /* One element of samples. */
 void answer_add_sample_named(json_t *samples, uint32_t frame, const char *metric, double value);
-/* An answer on behalf of a worker that left none; NULL without memory. */
-json_t *answer_make(fm_case_status status, const char *message);
+/* An answer on behalf of a worker that left none, or of another case; NULL without memory. */
+json_t *answer_make(fm_case_status status, fm_reason reason, const char *message);
 /* The same where the run is to blame. */
 json_t *answer_make_runs_fault(const char *message);
 /* Adds to the message: "; NOTE". What has no room then is cut from the end of the message, and of a
@@ -130,6 +134,7 @@ void answer_add_note(json_t *answer, const char *note);
 
 /* What follows asks answers that have passed results/answer_check.h. */
 fm_case_status answer_status(const json_t *answer);
+fm_reason answer_reason(const json_t *answer);
 bool answer_is_runs_fault(const json_t *answer);
 bool answer_is_truth_unusable(const json_t *answer);
 bool answer_is_starved(const json_t *answer);

@@ -121,11 +121,13 @@ static fm_status start(technique_run *run, fm_error *err)
 {
     const fm_technique_job *job = run->job;
     const fm_method_desc *method = job->method;
-    fm_status status = model_table_read(&run->table, job->settings->model, err);
+    fm_status status = fm_error_refuse(
+        err, model_table_read(&run->table, job->settings->model, err), FM_REASON_SETTING);
     if (status == FM_OK)
-        status = sequence_create(&run->sequence, job->settings, err);
-    if (status != FM_OK) /* a scene or a model that cannot be had */
-        return status == FM_INVALID || status == FM_IO ? FM_UNSUPPORTED : status;
+        status = fm_error_refuse(err, sequence_create(&run->sequence, job->settings, err),
+                                 FM_REASON_SCENE);
+    if (status != FM_OK)
+        return status;
     const uint32_t side = FM_TILE_SIDE;
     const uint32_t across = (run->sequence->width_px + side - 1) / side;
     const uint32_t tiles = across * ((run->sequence->height_px + side - 1) / side);

@@ -50,15 +50,15 @@ static fm_status read_feed(launch_job *job)
     const char *name = job->request->feed;
     job->feed = feed_from_name(name) & (FM_FEEDS_FRAGMENTS | FM_FEED_TRIANGLES);
     if (job->feed == 0)
-        return fm_fail(&job->error, FM_UNSUPPORTED, "feed '%s' is not one that this device carries",
-                       name);
+        return fm_refuse(&job->error, FM_REASON_FEED,
+                         "feed '%s' is not one that this device carries", name);
     return FM_OK;
 }
 
-/* A mesh that cannot be used is nothing that a plugin did wrong. */
-static fm_status not_the_plugins(fm_status status)
+/* A scene that cannot be had is nothing that a plugin did wrong. */
+static fm_status refuse_scene(launch_job *job, fm_status status)
 {
-    return status == FM_INVALID || status == FM_IO ? FM_UNSUPPORTED : status;
+    return fm_error_refuse(&job->error, status, FM_REASON_SCENE);
 }
 
 /* The program's own devices are as it is. */
@@ -119,7 +119,7 @@ static fm_status open_scene(launch_job *job)
         answer_set_mesh(job->answer, job->settings.mesh, &job->scene->facts);
     if (status == FM_OK && job->feed == FM_FEED_TRIANGLES)
         status = scene_hold(job->scene, &job->error); /* the host rasterises it, too */
-    return not_the_plugins(status);
+    return refuse_scene(job, status);
 }
 
 static bool is_bad_input(fm_status status)
@@ -178,6 +178,17 @@ static fm_case_status verdict(const launch_job *job, fm_status status)
     return is_plugins ? FM_CASE_PLUGIN_ERROR : FM_CASE_NOT_SUPPORTED;
 }
 
+/* Of a case that is not supported. A failure that verdict takes for no fault is one of the driver's
+ * compiler, with the runner's own shaders, or of the scene. */
+static fm_reason reason_of(const launch_job *job, fm_case_status word, fm_status status)
+{
+    if (word != FM_CASE_NOT_SUPPORTED)
+        return FM_REASON_NONE;
+    if (status == FM_UNSUPPORTED)
+        return job->error.reason;
+    return status == FM_SHADER ? FM_REASON_DRIVER : FM_REASON_SCENE;
+}
+
 /* What is to be known of a result beside its numbers; notes stand one after the other. */
 __attribute__((format(printf, 2, 3))) static void note(launch_job *job, const char *format, ...)
 {
@@ -207,7 +218,7 @@ static fm_status frames_job(launch_job *job)
     };
     fm_status status = open_device(job);
     if (status == FM_OK)
-        status = not_the_plugins(settings_finish(&job->settings, &job->error));
+        status = refuse_scene(job, settings_finish(&job->settings, &job->error));
     if (status == FM_OK)
         status = technique_job_run(job->answer, &job->sequence, &desc, &job->error);
     job->is_truths = status == FM_IO && job->method != NULL;
@@ -221,7 +232,7 @@ static fm_status truth_job(launch_job *job)
 {
     const char *path = job->request->truth, *common = job->request->common;
     const fm_shader_folders folders = { .method = common, .common = common, .code = &job->code };
-    fm_status status = not_the_plugins(settings_finish(&job->settings, &job->error));
+    fm_status status = refuse_scene(job, settings_finish(&job->settings, &job->error));
     if (status != FM_OK)
         return status;
     settings_for_truth(&job->settings, &job->settings);
@@ -443,7 +454,7 @@ int worker_main(const char *request_path, const char *answer_path, const fm_devi
         if (job.is_truths)
             answer_set_truth_unusable(job.answer);
     } else {
-        answer_set_verdict(job.answer, word, job.error.message);
+        answer_set_verdict(job.answer, word, reason_of(&job, word, status), job.error.message);
     }
     answer_set_code(job.answer, &job.code);
     if (!job.request->is_truth_job)

@@ -395,10 +395,50 @@ static void error_prefix_puts_a_colon_and_takes_no_error(void **state)
     assert_int_equal(fm_error_prefix(NULL, "scene %d", 7), FM_INVALID);
 }
 
+static void a_refusal_has_a_reason_that_a_prefix_keeps_and_a_failure_clears(void **state)
+{
+    (void)state;
+    fm_error err = { 0 };
+    assert_int_equal(fm_refuse(&err, FM_REASON_DEVICE_LIMIT, "%d bytes", 9), FM_UNSUPPORTED);
+    assert_int_equal(fm_error_prefix(&err, "kb"), FM_UNSUPPORTED);
+    assert_int_equal(err.status, FM_UNSUPPORTED);
+    assert_int_equal(err.reason, FM_REASON_DEVICE_LIMIT);
+    assert_string_equal(err.message, "kb: 9 bytes");
+    fm_fail(&err, FM_IO, "no such file");
+    assert_int_equal(err.reason, FM_REASON_NONE);
+    assert_int_equal(fm_refuse(NULL, FM_REASON_SCENE, "nobody hears"), FM_UNSUPPORTED);
+}
+
+static void only_what_was_given_becomes_a_refusal(void **state)
+{
+    (void)state;
+    static const fm_status given[] = { FM_INVALID, FM_IO },
+                           others[] = { FM_OK, FM_NO_MEMORY, FM_DEVICE_LOST };
+    fm_error err = { 0 };
+    for (size_t i = 0; i < 2; i++) {
+        fm_fail(&err, given[i], "a.obj:7: no");
+        assert_int_equal(fm_error_refuse(&err, given[i], FM_REASON_SCENE), FM_UNSUPPORTED);
+        assert_int_equal(err.status, FM_UNSUPPORTED);
+        assert_int_equal(err.reason, FM_REASON_SCENE);
+        assert_string_equal(err.message, "a.obj:7: no");
+        assert_int_equal(fm_error_refuse(NULL, given[i], FM_REASON_SCENE), FM_UNSUPPORTED);
+    }
+    for (size_t i = 0; i < 3; i++) {
+        fm_fail(&err, others[i], "it stays");
+        assert_int_equal(fm_error_refuse(&err, others[i], FM_REASON_SCENE), others[i]);
+        assert_int_equal(err.reason, FM_REASON_NONE);
+    }
+    fm_refuse(&err, FM_REASON_LOOPS, "so does another reason");
+    assert_int_equal(fm_error_refuse(&err, FM_UNSUPPORTED, FM_REASON_SCENE), FM_UNSUPPORTED);
+    assert_int_equal(err.reason, FM_REASON_LOOPS);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(error_prefix_puts_a_colon_and_takes_no_error),
+        cmocka_unit_test(a_refusal_has_a_reason_that_a_prefix_keeps_and_a_failure_clears),
+        cmocka_unit_test(only_what_was_given_becomes_a_refusal),
         cmocka_unit_test(text_add_grows),
         cmocka_unit_test(text_add_failure_sticks),
         cmocka_unit_test(text_file_round_trip_keeps_nul_bytes),

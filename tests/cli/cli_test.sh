@@ -214,6 +214,17 @@ check folder_that_cannot_be_made 2 "/proc" "$program" run --method z-buffer "${s
     -o /proc/fragmark
 check unsupported_only_is_nothing 3 "1 not supported" "$program" run --method kplus-array \
     "${small[@]}" --feed triangles -o "$here/unsupported"
+# Why, in a word: what the plan says, and what a worker does.
+check refusals_have_a_reason 0 "5 ok" "$program" run --method kb,kb-sr,z-buffer --feed raster,triangles --device dummy \
+    -a n=4 -a width_px=512 -a height_px=512 -a k=4,4096 -a depth=normal,reversed -a frames=1 -a warmup=0 -a launches=1 \
+    --no-images --no-report -o "$here/refused"
+reasons=$(sed 's/"[^"]*"/quoted/g' "$here/refused/summary.csv" | awk -F, '
+    NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
+    { print $at["method"], $at["feed"], $at["status"], $at["reason"] }' | sort -u | paste -sd/)
+[ "$reasons" = "kb raster not_supported device-limit/kb raster ok /kb triangles not_supported feed/\
+kb-sr raster not_supported setting/kb-sr raster ok /kb-sr triangles not_supported feed/\
+z-buffer raster not_supported depth-test/z-buffer raster ok /z-buffer triangles not_supported feed" ] ||
+    complain "refusals_have_a_reason: $reasons"
 
 # On the dummy device a timer costs something, and one for all passes is less than one for each.
 check frames_may_have_one_timer 0 "2 ok" "$program" run --method kplus-array "${small[@]}" \

@@ -129,6 +129,7 @@ static void dummy_tiny_refuses_large_buffers_with_both_numbers(void **state)
     fm_error err = { .message = "" };
     const fm_buffer_desc desc = { .name = "fragments", .bytes = DUMMY_TINY_BYTES + 1 };
     assert_int_equal(device->ops->buffer_create(&large, device, &desc, &err), FM_UNSUPPORTED);
+    assert_int_equal(err.reason, FM_REASON_DEVICE_LIMIT);
     assert_null(large);
     assert_string_equal(err.message, "buffer 'fragments': 1025 bytes, bound buffers of this device "
                                      "end at 1024 bytes");

@@ -221,6 +221,20 @@ static void a_method_that_asks_for_ballots_has_their_words(void **state)
     assert_int_equal(run_frame(*state, &method, FM_BUFFERS_AUTO), 7);
 }
 
+static void a_feature_that_the_device_lacks_is_the_reason(void **state)
+{
+    fm_device *device = *state;
+    fm_error err = { 0 };
+    const uint32_t features = device->caps.features;
+    const fm_method_desc method = one_pass("vote", "vote.glsl", FM_FEATURE_SUBGROUP_BALLOT);
+    device->caps.features = features & ~(uint32_t)FM_FEATURE_SUBGROUP_BALLOT;
+    const fm_status status = try_frame(device, &method, &err);
+    device->caps.features = features;
+    assert_int_equal(status, FM_UNSUPPORTED);
+    assert_int_equal(err.reason, FM_REASON_FEATURE);
+    assert_non_null(strstr(err.message, "needs subgroup ballots, which"));
+}
+
 static void only_a_method_that_asks_for_64_bits_has_them(void **state)
 {
     fm_error err = { 0 };
@@ -354,6 +368,7 @@ int main(void)
         ON_VULKAN_AND_OSMESA(an_iteration_reads_what_the_last_one_wrote),
         ON_VULKAN_AND_OSMESA(an_iteration_reads_what_the_last_one_wrote_by_address),
         ON_VULKAN_AND_OSMESA(a_method_that_asks_for_ballots_has_their_words),
+        ON_VULKAN_AND_OSMESA(a_feature_that_the_device_lacks_is_the_reason),
         ON_VULKAN_AND_OSMESA(only_a_method_that_asks_for_64_bits_has_them),
         ON_VULKAN_AND_OSMESA(an_extent_beyond_64_bits_is_no_memory),
         ON_VULKAN_AND_OSMESA(a_late_total_runs_the_frame_again_that_it_had_no_room_in),

@@ -83,6 +83,7 @@ static void a_loop_without_an_end_is_refused(void **state)
     const kit_frames frames = frames_of(&endless, NULL), few = frames_of(&bounded, NULL);
     assert_int_equal(frames_try(&seen, device_of(state), &few, &err), FM_OK);
     assert_int_equal(frames_try(&seen, device_of(state), &frames, &err), FM_UNSUPPORTED);
+    assert_int_equal(err.reason, FM_REASON_SUITE_LIMIT);
     assert_string_equal(err.message, "endless: total 'left' is still 1 after 65536 iterations");
 }
 

@@ -95,6 +95,7 @@ static void loops_that_a_driver_ends_are_refused(void **state)
             assert_int_equal(status, FM_OK);
         } else {
             assert_int_equal(status, FM_UNSUPPORTED);
+            assert_int_equal(err.reason, FM_REASON_LOOPS);
             assert_non_null(strstr(err.message, told[i]));
             assert_non_null(strstr(err.message, "n = 20, k = 700"));
             assert_non_null(strstr(err.message, "65535"));

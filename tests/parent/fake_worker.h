@@ -24,6 +24,9 @@ static const char fake_worker_script[] =
     "    sed 's|{|{\"mesh\":{\"file\":\"'\"$mesh\"'\",\"told\":\"a cube\"},|')\n"
     "if grep -q '\"job\": \"truth\"' \"$2\"; then\n"
     "    echo truth >>\"$here/calls\"\n"
+    "    [ ! -e \"$here/deep-truth\" ] || { echo "
+    "'{\"status\":\"not_supported\",\"reason\":\"suite-limit\",\"message\":\"too deep\"}' >\"$3\"\n"
+    "        exit 0; }\n"
     "    if [ -e \"$here/no-truth\" ]; then\n"
     "        echo '{\"status\":\"out_of_memory\",\"message\":\"too many fragments\"}' >\"$3\"\n"
     "        exit 0\n"
@@ -61,7 +64,9 @@ static const char fake_worker_script[] =
     "    echo \"$good\" >\"$3\" ;;\n"
     "unlike) [ \"$launch\" = 0 ] || good=$(echo \"$good\" | sed s/aa/bb/)\n"
     "    echo \"$good\" >\"$3\" ;;\n"
-    "unsupported) echo '{\"status\":\"not_supported\",\"message\":\"no interlock\"}' >\"$3\" ;;\n"
+    "unsupported) echo '{\"status\":\"not_supported\",\"reason\":\"feature\",\"message\":\"no "
+    "interlock\"}' >\"$3\" ;;\n"
+    "unreasoned) echo '{\"status\":\"not_supported\",\"message\":\"no interlock\"}' >\"$3\" ;;\n"
     "*) echo \"$good\" >\"$3\" ;;\n"
     "esac\n";
 

@@ -19,8 +19,10 @@ static const char worker_script[] =
     "case $mesh in\n"
     "*stop*) kill -TERM $FAKE_PARENT; sleep 60 ;;\n"
     "*crash*) kill -ABRT $$ ;;\n"
-    "*bad*) echo '{\"status\":\"not_supported\",\"message\":\"'$mesh':7: no\"}' >\"$3\" ;;\n"
-    "*unseen*) echo '{\"status\":\"not_supported\",\"message\":\"eye: too far\"}' >\"$3\" ;;\n"
+    "*bad*) echo '{\"status\":\"not_supported\",\"reason\":\"scene\",\"message\":\"'$mesh':7: "
+    "no\"}' >\"$3\" ;;\n"
+    "*unseen*) echo '{\"status\":\"not_supported\",\"reason\":\"scene\",\"message\":\"eye: too "
+    "far\"}' >\"$3\" ;;\n"
     "*) echo '{\"status\":\"ok\",\"message\":\"\",\"mesh\":{\"told\":\"a cube\"}}' >\"$3\" ;;\n"
     "esac\n";
 

@@ -145,6 +145,57 @@ static void run_takes_missing_support_as_a_result(void **state)
     assert_int_equal(result.not_supported, 1);
     assert_int_equal(count_in_file(&fake, "calls", "unsupported"), 1);
     assert_in_file(&fake, "out/summary.csv", "not_supported,no interlock,unsupported");
+    assert_in_file(&fake, "out/summary.csv", ",feature\n");
+    fake_close(&fake);
+}
+
+/* Whoever counts refusals by their reason misses none. */
+static void run_takes_no_refusal_without_a_reason(void **state)
+{
+    (void)state;
+    static const char *const ids[] = { "unreasoned", NULL };
+    fake_plan fake;
+    open_with_worker(&fake, ids, 1);
+    const fm_run_result result = run_well(&fake);
+    assert_int_equal(result.not_supported, 0);
+    assert_int_equal(result.failed, 1);
+    assert_in_file(&fake, "out/summary.csv",
+                   "'status' is 'not_supported' without a 'reason': no interlock");
+    fake_close(&fake);
+}
+
+/* Programs before that column wrote such journals. */
+static void run_goes_on_with_a_journal_without_reasons(void **state)
+{
+    (void)state;
+    static const char *const ids[] = { "unsupported", NULL };
+    static const char field[] = "\"reason\":\"feature\",";
+    fake_plan fake;
+    open_with_worker(&fake, ids, 1);
+    run_well(&fake);
+    char *journal = fake_read(&fake, "out/journal.jsonl"), *at = strstr(journal, field);
+    assert_non_null(at);
+    memmove(at, at + strlen(field), strlen(at + strlen(field)) + 1);
+    fake_write(&fake, "out/journal.jsonl", journal, "w");
+    free(journal);
+    assert_int_equal(run_well(&fake).not_supported, 1);
+    assert_int_equal(count_in_file(&fake, "calls", "unsupported"), 1);
+    assert_in_file(&fake, "out/summary.csv", "not_supported,no interlock,unsupported");
+    assert_int_equal(count_in_file(&fake, "out/summary.csv", ",feature\n"), 0);
+    fake_close(&fake);
+}
+
+static void run_fails_the_cases_of_a_truth_for_its_reason(void **state)
+{
+    (void)state;
+    static const char *const ids[] = { "a", "b", NULL };
+    fake_plan fake;
+    open_with_worker(&fake, ids, 1);
+    fake_write(&fake, "deep-truth", "", "w");
+    assert_int_equal(run_well(&fake).not_supported, 2);
+    assert_int_equal(count_in_file(&fake, "out/summary.csv", "not_supported,no truth: too deep"),
+                     2);
+    assert_int_equal(count_in_file(&fake, "out/summary.csv", ",suite-limit\n"), 2);
     fake_close(&fake);
 }
 
@@ -336,6 +387,9 @@ int main(void)
         cmocka_unit_test(run_interleaves_the_cases),
         cmocka_unit_test(run_records_every_way_a_worker_can_fail),
         cmocka_unit_test(run_takes_missing_support_as_a_result),
+        cmocka_unit_test(run_takes_no_refusal_without_a_reason),
+        cmocka_unit_test(run_goes_on_with_a_journal_without_reasons),
+        cmocka_unit_test(run_fails_the_cases_of_a_truth_for_its_reason),
         cmocka_unit_test(run_fails_the_cases_of_a_truth_that_failed),
         cmocka_unit_test(run_finds_an_exact_method_that_draws_differently),
         cmocka_unit_test(run_repeats_nothing_that_is_finished),

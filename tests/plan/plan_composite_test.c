@@ -54,6 +54,7 @@ static void back_to_front_needs_a_method_that_can_turn_round(void **state)
     assert_string_equal(plan.cases[3].skip,
                         "composite = back-to-front: front hands over front to back");
     assert_int_equal(plan.cases[3].skip_status, FM_CASE_NOT_SUPPORTED);
+    assert_int_equal(plan.cases[3].skip_reason, FM_REASON_SETTING);
     plan_free(&plan);
 }
 

@@ -119,6 +119,7 @@ static void plan_tells_a_refused_method_that_is_named(void **state)
     assert_string_equal(with.plan.cases[0].method, "broken");
     assert_string_equal(with.plan.cases[0].skip, "broken.so: abi");
     assert_int_equal(with.plan.cases[0].skip_status, FM_CASE_PLUGIN_ERROR);
+    assert_int_equal(with.plan.cases[0].skip_reason, FM_REASON_NONE);
     expect_refused(&with, &(fm_plan_request){ .methods = LIST("broken") },
                    "method 'broken' is refused: broken.so: abi");
     expect_refused(&with,
@@ -295,17 +296,28 @@ static void plan_skips_with_the_reason(void **state)
     assert_null(with.plan.cases[0].skip);
     assert_string_equal(with.plan.cases[1].skip, "k = 64: the method's largest is 32");
     assert_int_equal(with.plan.cases[1].skip_status, FM_CASE_NOT_SUPPORTED);
+    assert_int_equal(with.plan.cases[0].skip_reason, FM_REASON_NONE);
+    assert_int_equal(with.plan.cases[1].skip_reason, FM_REASON_SETTING);
     expect(&with, &(fm_plan_request){ .methods = LIST("ab"), .feeds = LIST("triangles") }, 1);
     assert_string_equal(with.plan.cases[0].skip, "feed 'triangles': the method takes raster");
+    assert_int_equal(with.plan.cases[0].skip_reason, FM_REASON_FEED);
+    expect(&with,
+           &(fm_plan_request){
+               .methods = LIST("kb"), .devices = LIST("tbr"), .feeds = LIST("raster") },
+           1);
+    assert_string_equal(with.plan.cases[0].skip, "feed 'raster': device tbr does not take it");
+    assert_int_equal(with.plan.cases[0].skip_reason, FM_REASON_FEED);
     expect(&with, &(fm_plan_request){ .methods = LIST("ab", "kb"), .axes = LIST("layout=layer") },
            2);
     assert_string_equal(with.plan.cases[0].skip, "layout = layer: the method has pixel, tile");
+    assert_int_equal(with.plan.cases[0].skip_reason, FM_REASON_SETTING);
     assert_null(with.plan.cases[1].skip);
     expect(&with,
            &(fm_plan_request){ .methods = LIST("kb"),
                                .axes = LIST("generator=mesh", "mesh=/nowhere/a.obj") },
            1);
     assert_memory_equal(with.plan.cases[0].skip, "mesh: /nowhere/a.obj: ", 22);
+    assert_int_equal(with.plan.cases[0].skip_reason, FM_REASON_SCENE);
     plan_free(&with.plan);
 }
 
@@ -318,6 +330,7 @@ static void plan_skips_what_cannot_be_culled(void **state)
            &(fm_plan_request){ .methods = LIST("ab", "kb"), .axes = LIST("culling=occupancy") }, 2);
     assert_string_equal(with.plan.cases[0].skip,
                         "culling = occupancy: the method keeps other fragments than the k nearest");
+    assert_int_equal(with.plan.cases[0].skip_reason, FM_REASON_SETTING);
     assert_null(with.plan.cases[1].skip);
     plan_free(&with.plan);
 }

@@ -131,6 +131,7 @@ static void a_reversed_projection_has_no_depth_test_of_a_pass(void **state)
     assert_int_equal(check_reversed(&err, TEXTS("culling", "none"), false), FM_OK);
     assert_int_equal(check_reversed(&err, TEXTS("culling", "none", "depth", "reversed"), false),
                      FM_UNSUPPORTED);
+    assert_int_equal(err.reason, FM_REASON_DEPTH_TEST);
     assert_non_null(strstr(err.message, "pass 'peel'"));
     assert_non_null(strstr(err.message, "attachment 'depth'"));
     assert_int_equal(check_reversed(&err, TEXTS("culling", "none", "depth", "reversed"), true),
@@ -142,6 +143,7 @@ static void a_reversed_projection_is_culled_in_the_shader_only(void **state)
     (void)state;
     fm_error err = { .message = "" };
     assert_int_equal(check_reversed(&err, TEXTS("depth", "reversed"), true), FM_UNSUPPORTED);
+    assert_int_equal(err.reason, FM_REASON_DEPTH_TEST);
     assert_non_null(strstr(err.message, "pass 'store'"));
     assert_non_null(strstr(err.message, "fm_cull_boundary"));
     assert_int_equal(check_reversed(&err, TEXTS("depth", "reversed", "cull_test", "shader"), true),
@@ -212,13 +214,14 @@ static void passes_over_a_cover_are_left_alone(void **state)
 }
 
 static void refuses(const fm_method_desc *method, const char *const *texts, uint32_t feed,
-                    const char *message)
+                    fm_reason reason, const char *message)
 {
     fm_method_desc culled;
     fm_error err = { .message = "" };
     const fm_settings settings = make_settings(texts);
     const fm_culling_desc desc = { .settings = &settings, .feed = feed };
     assert_int_equal(culling_apply(&culled, method, &desc, &err), FM_UNSUPPORTED);
+    assert_int_equal(err.reason, reason);
     if (strstr(err.message, message) == NULL)
         fail_msg("'%s' is not in: %s", message, err.message);
 }
@@ -227,19 +230,19 @@ static void what_cannot_be_culled_is_refused_with_the_reason(void **state)
 {
     (void)state;
     fm_method_desc method = make_method();
-    refuses(&method, NULL, FM_FEED_COMPUTE_LAYER, "feed raster only");
-    refuses(&method, TEXTS("k", "33", "cull_words", "1"), FM_FEED_RASTER,
+    refuses(&method, NULL, FM_FEED_COMPUTE_LAYER, FM_REASON_SETTING, "feed raster only");
+    refuses(&method, TEXTS("k", "33", "cull_words", "1"), FM_FEED_RASTER, FM_REASON_SETTING,
             "32 buckets are fewer than k = 33");
     refuses(&method, TEXTS("width_px", "16384", "height_px", "16384"), FM_FEED_RASTER,
-            "the map is over 2^32 words");
+            FM_REASON_SUITE_LIMIT, "the map is over 2^32 words");
     for (size_t i = 5; i < FM_MAX_PASSES - 3; i++)
         method.passes[i] = method.passes[4];
-    refuses(&method, NULL, FM_FEED_RASTER, "no room for 4 passes");
+    refuses(&method, NULL, FM_FEED_RASTER, FM_REASON_SUITE_LIMIT, "no room for 4 passes");
     method = make_method();
     method.k_total = "k";
-    refuses(&method, NULL, FM_FEED_RASTER, "to choose its k");
+    refuses(&method, NULL, FM_FEED_RASTER, FM_REASON_SETTING, "to choose its k");
     method.keeps = FM_KEEPS_ALL;
-    refuses(&method, NULL, FM_FEED_RASTER, "other fragments than the k nearest");
+    refuses(&method, NULL, FM_FEED_RASTER, FM_REASON_SETTING, "other fragments than the k nearest");
 }
 
 int main(void)

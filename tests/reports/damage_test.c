@@ -116,6 +116,58 @@ static void each_damaged_cell_is_named(void **state)
     }
 }
 
+/* Reads the kit's rows, with the column `reason` behind the others. */
+static fm_status read_with_reason(fm_result_files **results, const char *status, const char *reason,
+                                  fm_error *err)
+{
+    char directory[64];
+    fm_text longer = { 0 };
+    fakes rows = two;
+    rows.rows[0].status = status;
+    kit_make_results(directory, &rows);
+    char *text = read_file(directory, "summary.csv");
+    const char *line = text;
+    const char *const cells[] = { "reason", reason, "" };
+    for (size_t row = 0; row < 3; row++, line += strcspn(line, "\n") + 1)
+        text_add(&longer, "%.*s,%s\n", (int)strcspn(line, "\n"), line, cells[row]);
+    kit_write_file(directory, "summary.csv", longer.bytes);
+    const fm_status read = result_files_read(results, directory, err);
+    text_free(&longer);
+    free(text);
+    kit_remove_directory(directory);
+    return read;
+}
+
+static void a_reason_is_a_known_word_of_what_is_not_supported(void **state)
+{
+    (void)state;
+    fm_error err = { 0 };
+    fm_result_files *results = NULL;
+    assert_int_equal(read_with_reason(&results, "not_supported", "loops", &err), FM_OK);
+    assert_string_equal(results->cases[0].reason, "loops");
+    assert_string_equal(results->cases[1].reason, "");
+    result_files_close(results);
+    assert_int_equal(read_with_reason(&results, "not_supported", "", &err), FM_OK);
+    result_files_close(results);
+    assert_int_equal(read_with_reason(&results, "not_supported", "loop", &err), FM_INVALID);
+    assert_non_null(
+        strstr(err.message, "summary.csv:2: reason \"loop\" is unknown; the nearest is \"loops\""));
+    assert_int_equal(read_with_reason(&results, "ok", "loops", &err), FM_INVALID);
+    assert_non_null(strstr(err.message, "summary.csv:2: reason \"loops\" of a case that is ok"));
+}
+
+static void rows_of_before_the_column_have_no_reason(void **state)
+{
+    (void)state;
+    char directory[64];
+    fm_result_files *results = NULL;
+    kit_make_results(directory, &two);
+    assert_int_equal(result_files_read(&results, directory, NULL), FM_OK);
+    assert_string_equal(results->cases[0].reason, "");
+    result_files_close(results);
+    kit_remove_directory(directory);
+}
+
 /* A wrong image may have no finite error; nobody else's row is lost for that. */
 static void errors_without_a_number_are_read(void **state)
 {
@@ -250,6 +302,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_damaged_cell_is_named),
+        cmocka_unit_test(a_reason_is_a_known_word_of_what_is_not_supported),
+        cmocka_unit_test(rows_of_before_the_column_have_no_reason),
         cmocka_unit_test(errors_without_a_number_are_read),
         cmocka_unit_test(columns_of_newer_programs_stand_at_the_end),
         cmocka_unit_test(each_damaged_manifest_is_named),

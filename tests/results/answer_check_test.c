@@ -73,6 +73,31 @@ static void answer_must_have_a_known_status(void **state)
     assert_good("{\"status\": \"crash\", \"message\": \"killed\", \"what_comes_later\": [1]}");
 }
 
+static void a_reason_is_a_known_word_of_what_is_not_supported(void **state)
+{
+    (void)state;
+    fm_error err = { 0 };
+    static const char none[] = "{\"status\": \"not_supported\", \"message\": \"no interlock\"}";
+    assert_good("{\"status\": \"not_supported\", \"reason\": \"feature\"}");
+    assert_fault("{\"status\": \"not_supported\", \"reason\": 3}", "'reason' is not a text");
+    assert_fault("{\"status\": \"not_supported\", \"reason\": \"featur\"}",
+                 "'reason' is 'featur'; the nearest is 'feature'");
+    assert_fault("{\"status\": \"ok\", \"reason\": \"loops\"}",
+                 "'reason' is 'loops', and 'status' 'ok'");
+    assert_fault("{\"status\": \"timeout\", \"reason\": \"loops\"}", "and 'status' 'timeout'");
+    assert_good(none); /* as journals of older programs have it */
+    json_t *answer = json_loads(none, 0, NULL);
+    assert_int_equal(answer_check_reason(answer, &err), FM_INVALID);
+    assert_string_equal(err.message,
+                        "'status' is 'not_supported' without a 'reason': no interlock");
+    json_object_set_new(answer, "reason", json_string("feature"));
+    assert_int_equal(answer_check_reason(answer, &err), FM_OK);
+    json_object_set_new(answer, "status", json_string("crash"));
+    json_object_del(answer, "reason");
+    assert_int_equal(answer_check_reason(answer, &err), FM_OK);
+    json_decref(answer);
+}
+
 static void answer_fields_have_their_kinds(void **state)
 {
     (void)state;
@@ -167,6 +192,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(answer_must_have_a_known_status),
+        cmocka_unit_test(a_reason_is_a_known_word_of_what_is_not_supported),
         cmocka_unit_test(answer_fields_have_their_kinds),
         cmocka_unit_test(answer_texts_have_a_limit),
         cmocka_unit_test(metrics_are_known_and_in_their_range),

@@ -122,7 +122,9 @@ static void summary_has_the_columns_of_the_design_in_order(void **state)
         "code_program,code_driver,code_plugin,code_shaders,"
         "covered_rmse,covered_psnr_db,covered_max_abs,covered_ssim,flip_median,flip_p95,flip_max,"
         "covered_flip,covered_flip_median,covered_flip_p95,covered_flip_max,"
-        "total_rmse,total_max_abs,total_ssim,total_flip\n");
+        "total_rmse,total_max_abs,total_ssim,total_flip,fragments_wanted,declared_ties,declared_at_"
+        "one,"
+        "lost_ties,lost_at_one,self_max_abs,self_beyond,reason\n");
     text_free(&header);
 }
 
@@ -347,12 +349,41 @@ static void skipped_cases_tell_refusal_from_missing_support(void **state)
                      FM_OK);
     assert_field(results, "status", "plugin_error");
     assert_field(results, "message", "kb.so: wrong ABI");
+    assert_field(results, "reason", "");
     results_destroy(results);
     fake.cases[0].skip = unsupported;
     fake.cases[0].skip_status = FM_CASE_NOT_SUPPORTED;
+    fake.cases[0].skip_reason = FM_REASON_SETTING;
     assert_int_equal(results_create(&results, &fake.plan, &fake.list, fake.folder, "run", NULL),
                      FM_OK);
     assert_field(results, "status", "not_supported");
+    assert_field(results, "reason", "setting");
+    results_destroy(results);
+    fake_close(&fake);
+}
+
+static void add_end(fm_results *results, uint32_t launch, const char *status, const char *reason)
+{
+    json_t *answer =
+        json_pack("{s:s, s:s, s:s*}", "status", status, "message", "why", "reason", reason);
+    assert_int_equal(results_add(results, 0, launch, answer, NULL), FM_OK);
+    json_decref(answer);
+}
+
+/* It is that of the worst status, as the message is. */
+static void a_reason_goes_with_its_status(void **state)
+{
+    (void)state;
+    fake_plan fake;
+    fm_results *results = created(&fake, 3);
+    add_end(results, 0, "ok", NULL);
+    assert_field(results, "reason", "");
+    add_end(results, 1, "not_supported", "device-limit");
+    assert_field(results, "status", "not_supported");
+    assert_field(results, "reason", "device-limit");
+    add_end(results, 2, "out_of_memory", NULL);
+    assert_field(results, "status", "out_of_memory");
+    assert_field(results, "reason", "");
     results_destroy(results);
     fake_close(&fake);
 }
@@ -411,6 +442,7 @@ int main(void)
         cmocka_unit_test(numbers_of_a_launch_are_rows_without_a_frame),
         cmocka_unit_test(a_case_has_the_worst_status_of_its_launches),
         cmocka_unit_test(skipped_cases_tell_refusal_from_missing_support),
+        cmocka_unit_test(a_reason_goes_with_its_status),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -119,10 +119,23 @@ static void answer_of_the_runs_fault_gives_no_verdict(void **state)
     json_decref(answer);
 }
 
+static void answer_carries_the_reason_of_a_refusal(void **state)
+{
+    (void)state;
+    json_t *refused = answer_make(FM_CASE_NOT_SUPPORTED, FM_REASON_LOOPS, "n = 9");
+    json_t *crashed = answer_make(FM_CASE_CRASH, FM_REASON_NONE, "");
+    assert_int_equal(answer_reason(refused), FM_REASON_LOOPS);
+    assert_string_equal(json_string_value(json_object_get(refused, "reason")), "loops");
+    assert_int_equal(answer_reason(crashed), FM_REASON_NONE);
+    assert_null(json_object_get(crashed, "reason"));
+    json_decref(refused);
+    json_decref(crashed);
+}
+
 static void answer_takes_messages_of_any_bytes(void **state)
 {
     (void)state;
-    json_t *answer = answer_make(FM_CASE_CRASH, "caf\xE9");
+    json_t *answer = answer_make(FM_CASE_CRASH, FM_REASON_NONE, "caf\xE9");
     assert_non_null(answer);
     assert_string_equal(answer_message(answer), "caf?");
     json_decref(answer);
@@ -134,7 +147,7 @@ static void answer_notes_stay_within_the_limit(void **state)
     (void)state;
     static char longest[FM_MESSAGE_MAX_BYTES + 10];
     memset(longest, 'x', sizeof longest - 1);
-    json_t *answer = answer_make(FM_CASE_CRASH, longest + 9);
+    json_t *answer = answer_make(FM_CASE_CRASH, FM_REASON_NONE, longest + 9);
     assert_int_equal(strlen(answer_message(answer)), FM_MESSAGE_MAX_BYTES);
     answer_add_note(answer, "and so");
     assert_int_equal(strlen(answer_message(answer)), FM_MESSAGE_MAX_BYTES);
@@ -166,6 +179,7 @@ int main(void)
         cmocka_unit_test(request_comes_back_as_it_was_written),
         cmocka_unit_test(request_read_refuses_what_is_no_request),
         cmocka_unit_test(answer_of_the_runs_fault_gives_no_verdict),
+        cmocka_unit_test(answer_carries_the_reason_of_a_refusal),
         cmocka_unit_test(answer_takes_messages_of_any_bytes),
         cmocka_unit_test(answer_notes_stay_within_the_limit),
         cmocka_unit_test(answer_samples_carry_the_unit_of_their_metric),

@@ -133,10 +133,10 @@ static fm_status check_buffer(const dummy *self, const fm_buffer_desc *desc, fm_
         desc->by_address ? self->base.caps.buffer_max_bytes : self->base.caps.storage_range_bytes;
     assert(desc->bytes > 0);
     if (desc->bytes > range)
-        return fm_fail(err, FM_UNSUPPORTED,
-                       "buffer '%s': %llu bytes, %s buffers of this device end at %llu bytes",
-                       desc->name, (unsigned long long)desc->bytes,
-                       desc->by_address ? "addressed" : "bound", (unsigned long long)range);
+        return fm_refuse(err, FM_REASON_DEVICE_LIMIT,
+                         "buffer '%s': %llu bytes, %s buffers of this device end at %llu bytes",
+                         desc->name, (unsigned long long)desc->bytes,
+                         desc->by_address ? "addressed" : "bound", (unsigned long long)range);
     if (self->fault == FAULT_OUT_OF_MEMORY)
         return fm_fail(err, FM_NO_MEMORY, "buffer '%s': no room for %llu bytes", desc->name,
                        (unsigned long long)desc->bytes);
@@ -207,9 +207,9 @@ static fm_status image_create(fm_image_resource **image, fm_device *device,
     const uint32_t samples = desc->samples == 0 ? 1 : desc->samples;
     *image = NULL;
     if (samples >= 32 || (device->caps.colour_samples >> samples & 1u) == 0)
-        return fm_fail(err, FM_UNSUPPORTED,
-                       "image '%s': %u samples are not possible on this device", desc->name,
-                       samples);
+        return fm_refuse(err, FM_REASON_DEVICE_LIMIT,
+                         "image '%s': %u samples are not possible on this device", desc->name,
+                         samples);
     fm_image_resource *made = calloc(1, sizeof *made);
     if (made == NULL)
         return fm_fail(err, FM_NO_MEMORY, "image '%s': its handle", desc->name);

@@ -14,16 +14,16 @@ static fm_status check_buffer(const osmesa *self, const fm_buffer_desc *desc, fm
     const uint64_t range = self->base.caps.storage_range_bytes;
     assert(desc->bytes > 0);
     if (desc->by_address)
-        return fm_fail(err, FM_UNSUPPORTED, "buffer '%s': OpenGL has no buffer addresses",
-                       desc->name);
+        return fm_refuse(err, FM_REASON_FEATURE, "buffer '%s': OpenGL has no buffer addresses",
+                         desc->name);
     if (desc->bytes > range)
-        return fm_fail(err, FM_UNSUPPORTED,
-                       "buffer '%s': %llu MiB, bound buffers of this device end at %llu MiB",
-                       desc->name, mebibytes(desc->bytes), mebibytes(range));
+        return fm_refuse(err, FM_REASON_DEVICE_LIMIT,
+                         "buffer '%s': %llu MiB, bound buffers of this device end at %llu MiB",
+                         desc->name, mebibytes(desc->bytes), mebibytes(range));
     if (desc->is_uniform && desc->bytes > (uint64_t)self->limits.uniform_bytes)
-        return fm_fail(err, FM_UNSUPPORTED,
-                       "buffer '%s': %llu bytes, uniform buffers of this device end at %d",
-                       desc->name, (unsigned long long)desc->bytes, self->limits.uniform_bytes);
+        return fm_refuse(err, FM_REASON_DEVICE_LIMIT,
+                         "buffer '%s': %llu bytes, uniform buffers of this device end at %d",
+                         desc->name, (unsigned long long)desc->bytes, self->limits.uniform_bytes);
     return FM_OK;
 }
 

@@ -84,8 +84,9 @@ fm_status osmesa_draw(fm_device *device, const fm_draw *draw, fm_error *err)
     osmesa *self = osmesa_current(device);
     const fm_gl *gl = &self->gl;
     if (draw->vertex_count > INT32_MAX || draw->instance_count > INT32_MAX)
-        return fm_fail(err, FM_UNSUPPORTED, "draw: %u vertices, %u instances, OpenGL ends at %d",
-                       draw->vertex_count, draw->instance_count, INT32_MAX);
+        return fm_refuse(err, FM_REASON_DEVICE_LIMIT,
+                         "draw: %u vertices, %u instances, OpenGL ends at %d", draw->vertex_count,
+                         draw->instance_count, INT32_MAX);
     gl->MemoryBarrier(GL_ALL_BARRIER_BITS);
     const fm_status status = osmesa_framebuffer_bind(self, draw, err);
     if (status != FM_OK)

@@ -87,7 +87,7 @@ fm_status osmesa_framebuffer_bind(osmesa *self, const fm_draw *draw, fm_error *e
             gl->CheckNamedFramebufferStatus(self->draw_framebuffer, GL_DRAW_FRAMEBUFFER);
         if (reason != GL_FRAMEBUFFER_COMPLETE) {
             reset(self); /* or the next such draw would go unchecked */
-            return fm_fail(err, FM_UNSUPPORTED, "draw: %s", incomplete_reason(reason));
+            return fm_refuse(err, FM_REASON_FEATURE, "draw: %s", incomplete_reason(reason));
         }
     }
     gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, self->draw_framebuffer);

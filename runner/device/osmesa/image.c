@@ -14,17 +14,17 @@ static fm_status check_image(const osmesa *self, const fm_image_desc *desc, uint
                                   : self->base.caps.colour_samples;
     assert(desc->format != FM_FORMAT_NONE && desc->width_px > 0 && desc->height_px > 0);
     if (desc->width_px > side || desc->height_px > side)
-        return fm_fail(err, FM_UNSUPPORTED,
-                       "image '%s': %u x %u px, images of this device end at %u px", desc->name,
-                       desc->width_px, desc->height_px, side);
+        return fm_refuse(err, FM_REASON_DEVICE_LIMIT,
+                         "image '%s': %u x %u px, images of this device end at %u px", desc->name,
+                         desc->width_px, desc->height_px, side);
     if (layers > (uint32_t)self->limits.texture_layers)
-        return fm_fail(err, FM_UNSUPPORTED,
-                       "image '%s': %u layers, images of this device end at %d", desc->name, layers,
-                       self->limits.texture_layers);
+        return fm_refuse(err, FM_REASON_DEVICE_LIMIT,
+                         "image '%s': %u layers, images of this device end at %d", desc->name,
+                         layers, self->limits.texture_layers);
     if (samples >= 32 || (possible >> samples & 1u) == 0)
-        return fm_fail(err, FM_UNSUPPORTED,
-                       "image '%s': %u samples are not possible on this device", desc->name,
-                       samples);
+        return fm_refuse(err, FM_REASON_DEVICE_LIMIT,
+                         "image '%s': %u samples are not possible on this device", desc->name,
+                         samples);
     return FM_OK;
 }
 

@@ -12,10 +12,10 @@ static fm_status check_bindings(const osmesa *self, const fm_pipeline_desc *desc
         const fm_pipeline_binding *binding = &desc->bindings[i];
         assert(binding->kind != FM_BINDING_ADDRESS);
         if (binding->binding >= (uint32_t)self->limits.binding_end[binding->kind])
-            return fm_fail(err, FM_UNSUPPORTED,
-                           "%s: binding %u, %s of this device end before binding %d", desc->name,
-                           binding->binding, osmesa_binding_kind_name(binding->kind),
-                           self->limits.binding_end[binding->kind]);
+            return fm_refuse(err, FM_REASON_DEVICE_LIMIT,
+                             "%s: binding %u, %s of this device end before binding %d", desc->name,
+                             binding->binding, osmesa_binding_kind_name(binding->kind),
+                             self->limits.binding_end[binding->kind]);
     }
     return FM_OK;
 }

@@ -71,9 +71,9 @@ static fm_status fail_link(const osmesa *self, GLuint program, const fm_pipeline
     for (uint32_t i = 0; i < desc->binding_count; i++) {
         const fm_binding_kind kind = desc->bindings[i].kind;
         if (++counts[kind] > self->limits.per_stage[kind])
-            return fm_fail(err, FM_UNSUPPORTED,
-                           "%s: more than %d %s, the most of a shader on this device", desc->name,
-                           self->limits.per_stage[kind], osmesa_binding_kind_name(kind));
+            return fm_refuse(err, FM_REASON_DEVICE_LIMIT,
+                             "%s: more than %d %s, the most of a shader on this device", desc->name,
+                             self->limits.per_stage[kind], osmesa_binding_kind_name(kind));
     }
     self->gl.GetProgramInfoLog(program, sizeof log, NULL, log);
     return fm_fail(err, FM_SHADER, "%s: linking: %s", desc->name, log);

@@ -87,10 +87,10 @@ static fm_status check_stores(const fm_bind *binds, uint32_t count, fm_error *er
 {
     for (uint32_t i = 0; i < count; i++)
         if (binds[i].kind == FM_BINDING_STORAGE_IMAGE && !binds[i].image->can_store)
-            return fm_fail(err, FM_UNSUPPORTED,
-                           "image '%s': shaders cannot store into its format, or into so many "
-                           "samples, on this device",
-                           binds[i].image->name);
+            return fm_refuse(err, FM_REASON_FEATURE,
+                             "image '%s': shaders cannot store into its format, or into so many "
+                             "samples, on this device",
+                             binds[i].image->name);
     return FM_OK;
 }
 
@@ -111,7 +111,7 @@ fm_status vulkan_bind(vulkan *self, const fm_pipeline *pipeline, const fm_bind *
         if (binds[i].kind == FM_BINDING_ADDRESS) /* for barriers only */
             continue;
         if (write_count == FM_MAX_BINDINGS)
-            return fm_fail(err, FM_UNSUPPORTED, "more than %d bindings", FM_MAX_BINDINGS);
+            return fm_refuse(err, FM_REASON_SUITE_LIMIT, "more than %d bindings", FM_MAX_BINDINGS);
         VkWriteDescriptorSet *write = &writes[write_count];
         *write = binds[i].buffer != NULL ? write_buffer(&buffers[write_count], &binds[i])
                                          : write_image(&images[write_count], self, &binds[i]);

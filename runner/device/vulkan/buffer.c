@@ -53,7 +53,7 @@ fm_status vulkan_memory_allocate(vulkan_memory *memory, const vulkan *self,
                                         .memoryTypeIndex = type };
     *memory = (vulkan_memory){ .memory = VK_NULL_HANDLE };
     if (type == UINT32_MAX)
-        return fm_fail(err, FM_UNSUPPORTED, "no memory type fits");
+        return fm_refuse(err, FM_REASON_DEVICE_LIMIT, "no memory type fits");
     const VkResult result = vkAllocateMemory(self->device, &info, NULL, &memory->memory);
     if (result != VK_SUCCESS) {
         memory->memory = VK_NULL_HANDLE;
@@ -173,9 +173,9 @@ static fm_status check_limit(const fm_buffer_desc *desc, uint64_t limit, const c
 {
     if (desc->bytes <= limit)
         return FM_OK;
-    return fm_fail(err, FM_UNSUPPORTED,
-                   "buffer '%s': %llu bytes, %s buffers of this device end at %llu", desc->name,
-                   (unsigned long long)desc->bytes, which, (unsigned long long)limit);
+    return fm_refuse(err, FM_REASON_DEVICE_LIMIT,
+                     "buffer '%s': %llu bytes, %s buffers of this device end at %llu", desc->name,
+                     (unsigned long long)desc->bytes, which, (unsigned long long)limit);
 }
 
 static fm_status check_size(const vulkan *self, const fm_buffer_desc *desc, fm_error *err)
@@ -183,8 +183,8 @@ static fm_status check_size(const vulkan *self, const fm_buffer_desc *desc, fm_e
     const fm_device_caps *caps = &self->base.caps;
     assert(desc->bytes > 0);
     if (desc->by_address && (caps->features & FM_FEATURE_BUFFER_ADDRESS) == 0)
-        return fm_fail(err, FM_UNSUPPORTED, "buffer '%s': this device has no buffer addresses",
-                       desc->name);
+        return fm_refuse(err, FM_REASON_FEATURE, "buffer '%s': this device has no buffer addresses",
+                         desc->name);
     if (desc->by_address)
         return check_limit(desc, caps->buffer_max_bytes, "addressed", err);
     if (desc->is_uniform)

@@ -167,10 +167,10 @@ static fm_status check_query(const vulkan *self, const fm_draw *draw, fm_error *
         return FM_OK;
     assert(draw->query < FM_MAX_QUERIES);
     if (!self->can_query_precisely)
-        return fm_fail(err, FM_UNSUPPORTED, "draw: this device cannot count samples exactly");
+        return fm_refuse(err, FM_REASON_FEATURE, "draw: this device cannot count samples exactly");
     if (self->occlusions.count == self->occlusions.capacity)
-        return fm_fail(err, FM_UNSUPPORTED, "draw: more than %u queries in a frame",
-                       self->occlusions.capacity);
+        return fm_refuse(err, FM_REASON_SUITE_LIMIT, "draw: more than %u queries in a frame",
+                         self->occlusions.capacity);
     return FM_OK;
 }
 

@@ -122,8 +122,9 @@ fm_status vulkan_frame_end(fm_device *device, fm_frame_times *times, fm_error *e
     reset(self, &self->timestamps);
     reset(self, &self->occlusions);
     if (status == FM_OK && self->timers_overflowed)
-        status = fm_fail(err, FM_UNSUPPORTED, "vulkan: more than %d timed intervals in a frame",
-                         VULKAN_TIMESTAMPS_MAX / 2);
+        status =
+            fm_refuse(err, FM_REASON_SUITE_LIMIT, "vulkan: more than %d timed intervals in a frame",
+                      VULKAN_TIMESTAMPS_MAX / 2);
     return status;
 }
 

@@ -86,16 +86,17 @@ static fm_status check_image(const VkImageFormatProperties *limits, const fm_ima
                              uint32_t samples, uint32_t layers, fm_error *err)
 {
     if (desc->width_px > limits->maxExtent.width || desc->height_px > limits->maxExtent.height)
-        return fm_fail(err, FM_UNSUPPORTED,
-                       "image '%s': %u x %u pixels, this device's most are %u x %u", desc->name,
-                       desc->width_px, desc->height_px, limits->maxExtent.width,
-                       limits->maxExtent.height);
+        return fm_refuse(err, FM_REASON_DEVICE_LIMIT,
+                         "image '%s': %u x %u pixels, this device's most are %u x %u", desc->name,
+                         desc->width_px, desc->height_px, limits->maxExtent.width,
+                         limits->maxExtent.height);
     if (layers > limits->maxArrayLayers)
-        return fm_fail(err, FM_UNSUPPORTED, "image '%s': %u layers, this device's most are %u",
-                       desc->name, layers, limits->maxArrayLayers);
+        return fm_refuse(err, FM_REASON_DEVICE_LIMIT,
+                         "image '%s': %u layers, this device's most are %u", desc->name, layers,
+                         limits->maxArrayLayers);
     if ((samples & (samples - 1)) != 0 || (limits->sampleCounts & samples) == 0)
-        return fm_fail(err, FM_UNSUPPORTED, "image '%s': %u samples are not possible here",
-                       desc->name, samples);
+        return fm_refuse(err, FM_REASON_DEVICE_LIMIT,
+                         "image '%s': %u samples are not possible here", desc->name, samples);
     return FM_OK;
 }
 
@@ -106,7 +107,8 @@ static fm_status find_usage(VkImageUsageFlags *usage, const vulkan *self, const 
     VkImageFormatProperties limits;
     *usage = vulkan_format_usage(desc->format);
     if (!vulkan_format_limits(&limits, self->physical, desc->format, *usage))
-        return fm_fail(err, FM_UNSUPPORTED, "image '%s': this device lacks its format", desc->name);
+        return fm_refuse(err, FM_REASON_FEATURE, "image '%s': this device lacks its format",
+                         desc->name);
     const fm_status status = check_image(&limits, desc, samples, layers, err);
     if (status != FM_OK || vulkan_format_of(desc->format)->has_depth)
         return status;

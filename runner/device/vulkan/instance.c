@@ -49,7 +49,7 @@ static fm_status create_messenger(VkInstance instance, vulkan_validation *valida
         (PFN_vkCreateDebugUtilsMessengerEXT)vkGetInstanceProcAddr(instance,
                                                                   "vkCreateDebugUtilsMessengerEXT");
     if (create == NULL)
-        return fm_fail(err, FM_UNSUPPORTED, "vulkan: the validation layer has no messages");
+        return fm_refuse(err, FM_REASON_DRIVER, "vulkan: the validation layer has no messages");
     const VkResult result = create(instance, &info, NULL, &validation->messenger);
     return result == VK_SUCCESS ? FM_OK : vulkan_fail(err, result, "vulkan: messages");
 }
@@ -60,13 +60,13 @@ static fm_status fail_instance(fm_error *err, VkResult result)
                            : getenv("VK_ICD_FILENAMES") != NULL ? "VK_ICD_FILENAMES"
                                                                 : NULL;
     if (result == VK_ERROR_INCOMPATIBLE_DRIVER && variable != NULL)
-        return fm_fail(err, FM_UNSUPPORTED,
-                       "vulkan: no driver can be loaded from what %s names: %.200s", variable,
-                       getenv(variable));
+        return fm_refuse(err, FM_REASON_DRIVER,
+                         "vulkan: no driver can be loaded from what %s names: %.200s", variable,
+                         getenv(variable));
     if (result == VK_ERROR_INCOMPATIBLE_DRIVER)
-        return fm_fail(err, FM_UNSUPPORTED,
-                       "vulkan: no driver is installed; without a GPU: apt-get install "
-                       "mesa-vulkan-drivers");
+        return fm_refuse(err, FM_REASON_DRIVER,
+                         "vulkan: no driver is installed; without a GPU: apt-get install "
+                         "mesa-vulkan-drivers");
     return vulkan_fail(err, result, "vulkan: creating an instance");
 }
 
@@ -92,9 +92,10 @@ fm_status vulkan_instance_create(VkInstance *instance, vulkan_validation *valida
                                   .pApplicationInfo = &application };
     if (wants_validation) {
         if (!has_validation_layer())
-            return fm_fail(err, FM_UNSUPPORTED,
-                           "vulkan: validation was asked for and is not installed; apt-get install "
-                           "vulkan-validationlayers");
+            return fm_refuse(
+                err, FM_REASON_DRIVER,
+                "vulkan: validation was asked for and is not installed; apt-get install "
+                "vulkan-validationlayers");
         info.pNext = &features;
         info.enabledLayerCount = 1;
         info.ppEnabledLayerNames = layers;

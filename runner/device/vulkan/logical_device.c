@@ -129,9 +129,9 @@ fm_status vulkan_logical_device_create(vulkan *self, fm_error *err)
     self->can_store_multisampled = use.core.features.shaderStorageImageMultisample;
     self->can_query_precisely = use.core.features.occlusionQueryPrecise;
     if (!use.core12.hostQueryReset || !use.core.features.fragmentStoresAndAtomics)
-        return fm_fail(err, FM_UNSUPPORTED,
-                       "vulkan: '%s' lacks hostQueryReset or fragmentStoresAndAtomics",
-                       self->base.caps.name);
+        return fm_refuse(err, FM_REASON_FEATURE,
+                         "vulkan: '%s' lacks hostQueryReset or fragmentStoresAndAtomics",
+                         self->base.caps.name);
     const VkDeviceQueueCreateInfo queue = { .sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                                             .queueFamilyIndex = self->queue_family,
                                             .queueCount = 1,

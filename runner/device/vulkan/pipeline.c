@@ -41,8 +41,9 @@ static fm_status check_bindings(const vulkan *self, const fm_pipeline_desc *desc
         const fm_binding_kind kind = desc->bindings[i].kind;
         assert(kind != FM_BINDING_ADDRESS);
         if (++counts[kind] > limits[kind].most)
-            return fm_fail(err, FM_UNSUPPORTED, "%s: more than %u %s, the most of a shader here",
-                           desc->name, limits[kind].most, limits[kind].what);
+            return fm_refuse(err, FM_REASON_DEVICE_LIMIT,
+                             "%s: more than %u %s, the most of a shader here", desc->name,
+                             limits[kind].most, limits[kind].what);
     }
     return FM_OK;
 }
@@ -50,8 +51,8 @@ static fm_status check_bindings(const vulkan *self, const fm_pipeline_desc *desc
 static fm_status check_targets(const vulkan *self, const fm_pipeline_desc *desc, fm_error *err)
 {
     if (desc->target_count > self->base.caps.max_targets)
-        return fm_fail(err, FM_UNSUPPORTED, "%s: %u targets, this device's most are %u", desc->name,
-                       desc->target_count, self->base.caps.max_targets);
+        return fm_refuse(err, FM_REASON_DEVICE_LIMIT, "%s: %u targets, this device's most are %u",
+                         desc->name, desc->target_count, self->base.caps.max_targets);
     for (uint32_t i = 0; i < desc->target_count; i++) {
         VkFormatProperties can;
         const fm_target_desc *target = &desc->targets[i];
@@ -59,8 +60,8 @@ static fm_status check_targets(const vulkan *self, const fm_pipeline_desc *desc,
                                             vulkan_format_of(target->format)->format, &can);
         if (target->blend != FM_BLEND_OFF &&
             (can.optimalTilingFeatures & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT) == 0)
-            return fm_fail(err, FM_UNSUPPORTED, "%s: target %u: its format cannot be blended here",
-                           desc->name, i);
+            return fm_refuse(err, FM_REASON_FEATURE,
+                             "%s: target %u: its format cannot be blended here", desc->name, i);
     }
     return FM_OK;
 }
@@ -112,9 +113,9 @@ static VkPipelineShaderStageCreateInfo stage_info(VkShaderStageFlagBits stage,
 static fm_status creation_failed(fm_error *err, VkResult result, const char *name)
 {
     if (result == VK_ERROR_UNKNOWN)
-        return fm_fail(err, FM_UNSUPPORTED,
-                       "%s: the driver's compiler gives up on this shader (VkResult %d)", name,
-                       (int)result);
+        return fm_refuse(err, FM_REASON_DRIVER,
+                         "%s: the driver's compiler gives up on this shader (VkResult %d)", name,
+                         (int)result);
     return vulkan_fail(err, result, "%s: pipeline", name);
 }
 

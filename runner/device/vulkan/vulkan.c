@@ -58,9 +58,9 @@ static fm_status choose_device(vulkan *self, const char *selector, fm_error *err
     if (status != FM_OK)
         return status;
     if (count == 0)
-        return fm_fail(err, FM_UNSUPPORTED,
-                       "vulkan: no device with Vulkan 1.3; without a GPU: apt-get install "
-                       "mesa-vulkan-drivers");
+        return fm_refuse(err, FM_REASON_DRIVER,
+                         "vulkan: no device with Vulkan 1.3; without a GPU: apt-get install "
+                         "mesa-vulkan-drivers");
     for (size_t i = 0; i < count; i++) {
         if (matches(found[i], i, selector)) {
             self->physical = found[i];
@@ -129,8 +129,10 @@ static fm_status no_driver(fm_status status, fm_error *err)
 {
     if (status != FM_UNSUPPORTED)
         return status;
-    if (err != NULL)
+    if (err != NULL) {
         err->status = FM_IO;
+        err->reason = FM_REASON_NONE;
+    }
     return FM_IO;
 }
 
