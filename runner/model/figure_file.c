@@ -4,9 +4,9 @@
 
 #include "base/yaml_fields.h"
 
-static const char *const keys[] = { "id",    "paper",  "title",   "source",       "run",
-                                    "smoke", "large",  "charts",  "paper_points", "deviations",
-                                    "table", "claims", "pictures" };
+static const char *const keys[] = { "id",    "paper",  "title",    "source",       "run",
+                                    "smoke", "large",  "charts",   "paper_points", "deviations",
+                                    "table", "claims", "pictures", "untimed" };
 
 static const char *text_of(const fm_yaml *root, const char *key)
 {
@@ -22,6 +22,7 @@ static void fill(fm_figure_file *file)
     file->title = text_of(root, "title");
     file->source = text_of(root, "source");
     file->keeps_pictures = strcmp(text_of(root, "pictures"), "true") == 0;
+    file->is_untimed = strcmp(text_of(root, "untimed"), "true") == 0;
     file->run = yaml_tree_find(root, "run");
     file->smoke = yaml_tree_find(root, "smoke");
     file->large = yaml_tree_find(root, "large");
@@ -38,14 +39,16 @@ static fm_status check(const fm_figure_file *file, const fm_yaml_place *at)
         const char *key;
         bool is_needed;
     } texts[] = { { "id", true }, { "paper", true }, { "title", true }, { "source", false } };
-    bool keeps_pictures;
+    bool is_set;
     const char *text;
     fm_status status =
         field_check_keys(file->tree, "a figure", keys, sizeof keys / sizeof keys[0], at);
     for (size_t i = 0; i < sizeof texts / sizeof texts[0] && status == FM_OK; i++)
         status = field_text(&text, file->tree, texts[i].key, texts[i].is_needed, at);
     if (status == FM_OK)
-        status = field_bool(&keeps_pictures, file->tree, "pictures", at);
+        status = field_bool(&is_set, file->tree, "pictures", at);
+    if (status == FM_OK)
+        status = field_bool(&is_set, file->tree, "untimed", at);
     if (status == FM_OK &&
         strspn(file->id, "abcdefghijklmnopqrstuvwxyz0123456789-") != strlen(file->id))
         return fm_fail(at->err, FM_INVALID, "%s: id \"%s\": lower case, digits and hyphens only",

@@ -14,6 +14,7 @@
  *   smoke: { n: 32 }           what --smoke changes in each block of `run`
  *   large: [blocks]            what --large measures too
  *   pictures: true             pictures and heat maps of its cases are kept; default false
+ *   untimed: true              it is about errors or bytes: one launch is enough; default false
  *   charts: ...                in the report's order: reports/read/paper_figure.h; without them,
  *                              those that every report has
  *   paper_points: ...          the values that the paper prints: there too
@@ -33,7 +34,7 @@
 /* All texts and parts point into the tree. */
 typedef struct fm_figure_file {
     const char *id, *paper, *title, *source; /* "": missing */
-    bool keeps_pictures;
+    bool keeps_pictures, is_untimed;
     /* Parts; NULL: missing. Their own readers check them. */
     const fm_yaml *run, *smoke, *large, *charts, *paper_points, *claims, *deviations, *table;
     fm_yaml *tree; /* owned */

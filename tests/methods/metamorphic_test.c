@@ -183,8 +183,8 @@ static void expect_any_layout(kit_scene *scene, const quad_list *list, const fm_
         const kit_way way = { method->id, FM_FEED_RASTER, texts };
         fm_image *image = picture(scene, method, texts);
         if (image != NULL && first != NULL)
-            expect_same(scene, image, first, measure_wanted(method, 5),
-                        image_rounding(QUADS), &way);
+            expect_same(scene, image, first, measure_wanted(method, 5), image_rounding(QUADS),
+                        &way);
         if (first == NULL)
             first = image;
         else
@@ -226,8 +226,7 @@ static void expect_moved(kit_scene *scene, const quad_list *list, const fm_metho
     fm_image *first = picture(scene, method, "k=5"), *second = picture(&moved, method, "k=5");
     if (first != NULL && second != NULL) {
         fm_image *cut = cut_out(second, other.dx, other.dy);
-        expect_same(scene, cut, first, measure_wanted(method, 5), image_rounding(QUADS),
-                    &way);
+        expect_same(scene, cut, first, measure_wanted(method, 5), image_rounding(QUADS), &way);
         image_destroy(cut);
     }
     image_destroy(first);
