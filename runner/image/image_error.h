@@ -44,7 +44,18 @@ typedef struct image_compare_desc {
  * FM_INVALID: sizes differ, or as image_flip says; FM_NO_MEMORY. */
 fm_status image_compare(fm_image_error *error, const image_compare_desc *desc, fm_error *err);
 
-/* The first measures alone, over the viewport. FM_INVALID: sizes differ. */
+/* The first measures alone, pixel by pixel: whoever has no picture to compare with adds what it
+ * would hold. Starts as {0}. */
+typedef struct difference_sums {
+    double squares, most;
+    uint64_t pixels;
+} difference_sums;
+/* Adds a pixel; returns the error of its worst channel. One that is no number is infinite. */
+float difference_add(difference_sums *sums, const float image[4], const float reference[4]);
+/* All are NAN if no pixel was added. */
+fm_difference difference_of(const difference_sums *sums);
+
+/* The same of whole images, over the viewport. FM_INVALID: sizes differ. */
 fm_status image_difference(fm_difference *difference, const fm_image *image,
                            const fm_image *reference, fm_error *err);
 
