@@ -46,6 +46,21 @@ typedef struct reference_images {
  * FM_NO_MEMORY. */
 fm_status reference_distance(double *max_abs, const reference_images *compared, fm_error *err);
 
+/* How far images are from the pictures that truth allows, by their worst image each. */
+typedef struct reference_error {
+    double rmse, max_abs; /* against the wanted fragments */
+    double total_rmse;    /* against all of them */
+} reference_error;
+
+/* Of each image what image_difference finds against the pictures that reference_create makes for
+ * it, exposed by `stops`: bit by bit the same, in one pass over truth for all images; traits and
+ * rounding play no part. *worst: at least what it was. FM_NO_MEMORY. */
+fm_status reference_worst(reference_error *worst, const reference_images *compared, double stops,
+                          fm_error *err);
+
+/* Scales an image's colours by 2^stops; alpha stays. */
+void reference_expose_image(fm_image *image, double stops);
+
 /* The distance of one pixel's channels from a range: the largest; INFINITY as above. */
 double range_distance(const fm_range *range, const float rgba[4]);
 
