@@ -14,6 +14,12 @@ typedef struct fm_difference {
     double max_abs;
 } fm_difference;
 
+/* The largest errors of several images of one case, perhaps of three different ones. */
+typedef struct fm_worst_error {
+    double rmse, max_abs; /* against the pictures of the wanted fragments */
+    double total_rmse;    /* against those of all fragments */
+} fm_worst_error;
+
 /* Where. Pixels that nothing covers are right whatever the method does; over a viewport that is
  * mostly empty they hide its errors. */
 typedef enum fm_region { FM_REGION_VIEWPORT, FM_REGION_COVERED, FM_REGION_COUNT } fm_region;

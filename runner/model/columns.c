@@ -102,6 +102,13 @@ const fm_column fm_columns[] = {
     METRIC(TOTAL_MAX_ABS),
     METRIC(TOTAL_SSIM),
     METRIC(TOTAL_FLIP),
+    METRIC(FRAMES_DRAWN),
+    METRIC(FRAMES_RMSE_MAX),
+    METRIC(FRAMES_MAX_ABS),
+    METRIC(FRAMES_TOTAL_RMSE_MAX),
+    METRIC(CAPTURED_FRAMES),
+    METRIC(DISTINCT_FRAGMENTS),
+    METRIC(MISSING_MAX),
 };
 /* clang-format on */
 _Static_assert(sizeof fm_columns / sizeof fm_columns[0] == FM_COLUMN_COUNT, "FM_COLUMN_COUNT");

@@ -49,7 +49,7 @@ typedef struct fm_column {
 } fm_column;
 
 enum {
-    FM_COLUMN_COUNT = 89,
+    FM_COLUMN_COUNT = 96,
     FM_COLUMN_REQUIRED =
         51 /* the first of them: files of schema 1 have these, later ones may lack */
 };

@@ -9,6 +9,7 @@
 #define FM_ANSWER_CHECK_H
 
 #include <jansson.h>
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "base/error.h"
@@ -16,5 +17,9 @@
 /* frames: how many an answer may speak of. FM_INVALID: what is wrong, in words that follow "the
  * worker's result cannot be used: "; FM_NO_MEMORY. */
 fm_status answer_check(const json_t *answer, uint32_t frames, fm_error *err);
+
+/* A number of a case or launch: JSON has no words for what is no finite number, so such travel as
+ * the texts "inf", "-inf" and "nan". false: it is none of these. */
+bool answer_value(double *value, const json_t *json);
 
 #endif

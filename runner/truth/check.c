@@ -118,3 +118,9 @@ void check_pixel(fm_check *check, fm_fragment *captured, uint32_t captured_count
     if (used != on_stack)
         free(used);
 }
+
+uint64_t check_faults(const fm_check *check)
+{
+    return check->missing - check->declared.at_depth_one - check->declared.of_ties + check->extra +
+           check->misordered;
+}

@@ -3,7 +3,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "image/image_error.h"
 #include "loss.h"
 
 /* A pass over all pixels. */
@@ -224,7 +223,7 @@ static void add_distances(image_sums *sums, const pixel_walk *walk,
     }
 }
 
-static void take_worst(reference_error *worst, const image_sums *sums)
+static void take_worst(fm_worst_error *worst, const image_sums *sums)
 {
     const fm_difference wanted = difference_of(&sums->wanted), all = difference_of(&sums->all);
     worst->rmse = fmax(worst->rmse, wanted.rmse);
@@ -232,7 +231,7 @@ static void take_worst(reference_error *worst, const image_sums *sums)
     worst->total_rmse = fmax(worst->total_rmse, all.rmse);
 }
 
-fm_status reference_worst(reference_error *worst, const reference_images *compared, double stops,
+fm_status reference_worst(fm_worst_error *worst, const reference_images *compared, double stops,
                           fm_error *err)
 {
     const fm_truth *truth = compared->truth;

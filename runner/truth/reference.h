@@ -9,6 +9,7 @@
 #ifndef FM_REFERENCE_H
 #define FM_REFERENCE_H
 
+#include "image/image_error.h"
 #include "rounding.h"
 #include "ties.h"
 #include "truth.h"
@@ -46,16 +47,10 @@ typedef struct reference_images {
  * FM_NO_MEMORY. */
 fm_status reference_distance(double *max_abs, const reference_images *compared, fm_error *err);
 
-/* How far images are from the pictures that truth allows, by their worst image each. */
-typedef struct reference_error {
-    double rmse, max_abs; /* against the wanted fragments */
-    double total_rmse;    /* against all of them */
-} reference_error;
-
 /* Of each image what image_difference finds against the pictures that reference_create makes for
  * it, exposed by `stops`: bit by bit the same, in one pass over truth for all images; traits and
  * rounding play no part. *worst: at least what it was. FM_NO_MEMORY. */
-fm_status reference_worst(reference_error *worst, const reference_images *compared, double stops,
+fm_status reference_worst(fm_worst_error *worst, const reference_images *compared, double stops,
                           fm_error *err);
 
 /* Scales an image's colours by 2^stops; alpha stays. */

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "truth/reference.h"
+
 /* A layer rounds the sum and what shows, each by half an ulp of 1 at most, 2^-25: at random they
  * walk to sqrt(2 n) 2^-25. Sequences of 128 to 2048 layers were seen to reach 2^-24 sqrt(n); twice
  * that is allowed, and for few layers what a picture is compared by. */
@@ -24,6 +26,10 @@ fm_status measure_case(fm_measurement *measurement, const fm_measure_desc *desc,
         status = measure_check_fragments(measurement, desc, err);
     if (status == FM_OK && desc->check)
         status = measure_check_images(measurement, desc, err);
+    if (measurement->range.low != NULL) {
+        reference_expose_image(measurement->range.low, desc->method->settings->exposure);
+        reference_expose_image(measurement->range.high, desc->method->settings->exposure);
+    }
     return status;
 }
 
@@ -33,5 +39,6 @@ void measurement_free(fm_measurement *measurement)
     free(measurement->image_hashes);
     image_destroy(measurement->image);
     image_destroy(measurement->truth_image);
+    image_range_free(&measurement->range);
     *measurement = (fm_measurement){ 0 };
 }

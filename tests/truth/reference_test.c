@@ -7,7 +7,6 @@
 #include <cmocka.h>
 
 #include "fragmark/method.h"
-#include "image/image_error.h"
 #include "truth/reference.h"
 
 /* Half opaque red and green, premultiplied: 102 of 255. */
@@ -126,7 +125,7 @@ static void the_worst_of_images_has_the_errors_of_whole_pictures(void **state)
         const reference_images compared = {
             .truth = &truth, .wanted = 1, .images = both, .count = 2
         };
-        reference_error worst = { .max_abs = 0.5 }, expected = { .max_abs = 0.5 };
+        fm_worst_error worst = { .max_abs = 0.5 }, expected = { .max_abs = 0.5 };
         assert_int_equal(reference_worst(&worst, &compared, all_stops[s], NULL), FM_OK);
         for (int i = 0; i < 2; i++) {
             fm_reference whole;
@@ -154,7 +153,7 @@ static void an_image_that_is_no_number_is_infinitely_far(void **state)
     const reference_images compared = {
         .truth = &truth, .wanted = UINT32_MAX, .images = images, .count = 1
     };
-    reference_error worst = { 0, 0, 0 };
+    fm_worst_error worst = { 0, 0, 0 };
     assert_int_equal(reference_worst(&worst, &compared, 0, NULL), FM_OK);
     assert_true(isinf(worst.rmse) && isinf(worst.max_abs) && isinf(worst.total_rmse));
 }
