@@ -5,6 +5,7 @@
  * The launch is what the file that FRAGMARK_TEST_LAUNCHES names counts: each process that runs
  * frames adds a byte to it. */
 #include <fcntl.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -25,34 +26,37 @@ static unsigned launch_number(void)
     return launch > 0 ? (unsigned)launch : 0;
 }
 
-/* The loop runs once, and once more for each launch before this one. */
+/* Which of four frames this is, from 0; a frame begins where the loop ran once. */
+static unsigned frame_number(uint64_t runs)
+{
+    static unsigned frames; /* begun so far */
+    frames += runs == 1;
+    return (frames - 1) % 4;
+}
+
+/* The loop runs once, and once more for each frame of four, and four times for each launch. */
 static fm_next after(const fm_workload *workload, const char *pass)
 {
     (void)pass;
-    return workload->totals[0] <= launch_number() ? FM_REPEAT : FM_NEXT;
+    const uint64_t runs = workload->totals[0];
+    return runs <= 4 * launch_number() + frame_number(runs) ? FM_REPEAT : FM_NEXT;
 }
 
 const fm_method_desc fm_method = {
     HEAD("unsteady"),
     .keeps = FM_KEEPS_NEAREST,
     .options = { { .name = "wrong", .values = { "0", "1", "2", "3" } } },
-    .resources = { NEAREST,
-                   { .name = "frames", .extent = { .constant = 1 } },
-                   { .name = "launches", .extent = { .constant = 1 } } },
-    .totals = { { .name = "launch", .resource = "launches", .pass = "launch" } },
+    .resources = { NEAREST, { .name = "runs", .extent = { .constant = 1 } } },
+    .totals = { { .name = "runs", .resource = "runs", .pass = "run" } },
     .passes = { { .name = "clear",
                   .kind = FM_PASS_CLEAR,
                   .writes = { "nearest" },
                   .clear_word = 0x7F800000u },
-                { .name = "clear-launch", .kind = FM_PASS_CLEAR, .writes = { "launches" } },
-                { .name = "frame",
+                { .name = "clear-runs", .kind = FM_PASS_CLEAR, .writes = { "runs" } },
+                { .name = "run",
                   .kind = FM_PASS_PIXELS,
-                  .shader = "unsteady-frame.glsl",
-                  .writes = { "frames" } },
-                { .name = "launch",
-                  .kind = FM_PASS_PIXELS,
-                  .shader = "unsteady-launch.glsl",
-                  .writes = { "launches" } },
+                  .shader = "unsteady-run.glsl",
+                  .writes = { "runs" } },
                 { .name = "ask", .kind = FM_PASS_HOST },
                 { .name = "store",
                   .kind = FM_PASS_SCENE,
@@ -61,8 +65,8 @@ const fm_method_desc fm_method = {
                 { .name = "resolve",
                   .kind = FM_PASS_PIXELS,
                   .shader = "unsteady.glsl",
-                  .reads = { "nearest", "frames", "launches" },
+                  .reads = { "nearest", "runs" },
                   .emits = true } },
-    .loops = { { .first = "launch", .last = "ask", .max = 64 } },
+    .loops = { { .first = "run", .last = "ask", .max = 64 } },
     .after = after,
 };

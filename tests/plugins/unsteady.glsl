@@ -2,8 +2,9 @@
 // and in launch 1 nine, if bit 1 is.
 uint columns()
 {
-    const bool is_second = (frames[0] & 3u) == 2u; // frames count from 1
-    if (is_second && (WRONG & 2) != 0 && launches[0] == 2u)
+    const uint launch = (runs[0] - 1u) / 4u;
+    const bool is_second = (runs[0] - 1u) % 4u == 1u;
+    if (is_second && (WRONG & 2) != 0 && launch == 1u)
         return 9u;
     return is_second && (WRONG & 1) != 0 ? 4u : 1u;
 }

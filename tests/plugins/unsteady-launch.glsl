@@ -1,5 +1,0 @@
-void launch(uvec2 pixel)
-{
-    if (pixel == uvec2(0u))
-        launches[0]++; // one invocation alone
-}
