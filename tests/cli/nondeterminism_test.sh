@@ -113,4 +113,18 @@ measure vulkan 3 0 --no-images
 expect distinct_images 3
 times frames_rmse_max 3 rmse
 [ ! -e "$work/out/images" ] && [ ! -e "$work/out/work" ] || { echo "$what: files"; failed=1; }
+# A real race: whatever it does, its worst frame is no better than its last, and frames that differ
+# leave a range.
+FRAGMARK_PLUGIN_PATH=$(dirname "$program")/methods
+what='kb, racing'
+rm -rf "$work/out"
+"$program" run -q --no-report --method kb --scene layers --device vulkan --feed compute-layer -a n=24 \
+    -a k=8 -a width_px=200 -a height_px=150 -a launches=2 -a frames=4 -o "$work/out" 2>"$work/talk" ||
+    { cat "$work/talk"; failed=1; }
+expect captured_frames 4
+expect frames_drawn 8
+awk -v worst="$(column frames_rmse_max)" -v last="$(column rmse)" 'BEGIN { exit !(worst >= last) }' ||
+    { echo "$what: the worst frame is better than the last"; failed=1; }
+[ "$(column distinct_images)" = 1 ] || compgen -G "$work/out/images/*.low.rgba32f" >/dev/null ||
+    { echo "$what: no range"; failed=1; }
 exit "$failed"
