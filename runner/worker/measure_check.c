@@ -21,6 +21,7 @@ typedef struct checking {
     fm_check sums;                     /* of the running capture */
     uint64_t hashes[MEASURE_CAPTURES]; /* of the fragments of each capture so far */
     uint32_t capture;                  /* number of the running one */
+    bool is_repeated;                  /* there may be several: fragments may differ */
     const fm_truth *truth;
     fm_stage *stage;
     uint32_t wanted;
@@ -109,7 +110,8 @@ static void check_fragments(checking *check, uint64_t pixel, uint32_t local, uin
 {
     const true_pixel truth = true_pixel_of(check, pixel);
     check_pixel(&check->sums, check->pixel, count, truth.fragments, truth.count, truth.wanted);
-    add_hash(check, pixel, local, count);
+    if (check->is_repeated)
+        add_hash(check, pixel, local, count);
 }
 
 /* All of a pixel in the first capture: what was captured, and what the timed frame drew there.
@@ -213,23 +215,23 @@ static void note_capture(checking *check)
 }
 
 /* Who hands no fragments over, as an approximation, has none that could differ. */
-static uint32_t captures_wanted(const fm_measurement *m, uint32_t traits)
+static uint32_t captures_wanted(const checking *check)
 {
-    const bool may_differ = (traits & FM_TRAIT_RACY) != 0 || m->distinct_images > 1;
-    return may_differ && m->check.captured > 0 ? MEASURE_CAPTURES : 1;
+    return check->is_repeated && check->measurement->check.captured > 0 ? MEASURE_CAPTURES : 1;
 }
 
 static fm_status check_captures(checking *check, fm_instance *instance, uint32_t traits,
                                 fm_error *err)
 {
     fm_status status;
+    check->is_repeated = (traits & FM_TRAIT_RACY) != 0 || check->measurement->distinct_images > 1;
     do {
         check->sums = (fm_check){ .traits = traits };
         status = check_bands(check, instance, err);
         if (status == FM_OK)
             note_capture(check);
         check->capture++;
-    } while (status == FM_OK && check->capture < captures_wanted(check->measurement, traits));
+    } while (status == FM_OK && check->capture < captures_wanted(check));
     return status;
 }
 
