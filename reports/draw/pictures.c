@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "image/colour.h"
+#include "image/image_range.h"
 #include "image_file.h"
 #include "read/picture.h"
 
@@ -80,54 +81,76 @@ static float heat_share(double difference)
     return (float)fmin(share, 1.0);
 }
 
+/* How far two values are apart: 0 where both are the same infinity, infinite where one is no
+ * number. */
+static double apart_of(float a, float b)
+{
+    const double apart = a >= b && a <= b ? 0.0 : fabs((double)a - (double)b);
+    return isnan(apart) ? INFINITY : apart;
+}
+
 /* Fills difference (absolute, by channel) and shares (of the largest channel). */
-static void subtract(fm_picture_set *set, fm_image *difference, float *shares,
-                     const fm_image *result, const fm_image *truth)
+static void subtract(fm_heat *heat, fm_image *difference, float *shares, const fm_image *a,
+                     const fm_image *b)
 {
     size_t worst = 0;
-    set->max_difference = 0.0;
-    for (size_t i = 0; i < pixel_count(result); i++) {
+    heat->most = 0.0;
+    for (size_t i = 0; i < pixel_count(a); i++) {
         double largest = 0.0;
         for (size_t c = 4 * i; c < 4 * i + 4; c++) {
-            double apart = fabs((double)result->rgba[c] - (double)truth->rgba[c]);
-            apart = isnan(apart) ? INFINITY : apart;
+            const double apart = apart_of(a->rgba[c], b->rgba[c]);
             difference->rgba[c] = (float)apart;
             largest = fmax(largest, apart);
         }
         shares[i] = heat_share(largest);
         worst += largest > FM_HEAT_LOW;
-        set->max_difference = fmax(set->max_difference, largest);
+        heat->most = fmax(heat->most, largest);
     }
-    set->worst_share = (double)worst / (double)pixel_count(result);
+    heat->share = (double)worst / (double)pixel_count(a);
 }
 
-static fm_status write_difference(fm_picture_set *set, const char *directory, const char *id,
-                                  const fm_image *result, const fm_image *truth, fm_error *err)
+/* Two pictures of one case, and the kind of their heat map: ".difference". */
+typedef struct picture_pair {
+    const fm_image *a, *b;
+    const char *a_name, *b_name; /* for people */
+    const char *kind;
+} picture_pair;
+
+static fm_status write_heat(const char *directory, const char *id, const char *kind,
+                            const fm_image *difference, const float *shares, fm_error *err)
 {
-    char path[FM_PATH_MAX_BYTES];
+    char path[FM_PATH_MAX_BYTES], ending[32];
+    snprintf(ending, sizeof ending, "%.24s.exr", kind);
+    fm_status status = picture_path(path, directory, id, ending, err);
+    if (status == FM_OK)
+        status = image_file_write_rgba32f(path, difference->rgba, difference->width_px,
+                                          difference->height_px, err);
+    snprintf(ending, sizeof ending, "%.24s.png", kind);
+    if (status == FM_OK)
+        status = picture_path(path, directory, id, ending, err);
+    return status == FM_OK ? write_heat_png(path, shares, difference, err) : status;
+}
+
+static fm_status write_difference(fm_heat *heat, const char *directory, const char *id,
+                                  const picture_pair *pair, fm_error *err)
+{
+    const fm_image *a = pair->a, *b = pair->b;
     fm_image *difference = NULL;
     float *shares = NULL;
-    if (result->width_px != truth->width_px || result->height_px != truth->height_px)
-        return fm_fail(err, FM_INVALID, "%s/images/%s: result is %u x %u, truth is %u x %u",
-                       directory, id, result->width_px, result->height_px, truth->width_px,
-                       truth->height_px);
-    fm_status status = image_create(&difference, result->width_px, result->height_px, err);
+    if (a->width_px != b->width_px || a->height_px != b->height_px)
+        return fm_fail(err, FM_INVALID, "%s/images/%s: %s is %u x %u, %s is %u x %u", directory, id,
+                       pair->a_name, a->width_px, a->height_px, pair->b_name, b->width_px,
+                       b->height_px);
+    fm_status status = image_create(&difference, a->width_px, a->height_px, err);
     if (status != FM_OK)
         goto out;
-    shares = calloc(pixel_count(result), sizeof *shares);
+    shares = calloc(pixel_count(a), sizeof *shares);
     if (shares == NULL) {
         status = fm_fail(err, FM_NO_MEMORY, "heat map of %s", id);
         goto out;
     }
-    subtract(set, difference, shares, result, truth);
-    status = picture_path(path, directory, id, ".difference.exr", err);
-    if (status == FM_OK)
-        status = image_file_write_rgba32f(path, difference->rgba, difference->width_px,
-                                          difference->height_px, err);
-    if (status == FM_OK)
-        status = picture_path(path, directory, id, ".difference.png", err);
-    if (status == FM_OK)
-        status = write_heat_png(path, shares, difference, err);
+    subtract(heat, difference, shares, a, b);
+    status = write_heat(directory, id, pair->kind, difference, shares, err);
 out:
     free(shares);
     image_destroy(difference);
@@ -188,15 +211,35 @@ static fm_status convert(fm_image **image, const char *directory, const char *id
     return write_picture(directory, id, kind, *image, err);
 }
 
+/* What frames reached, where they drew different images. */
+static fm_status write_range(fm_picture_set *set, const char *directory, const char *id,
+                             fm_error *err)
+{
+    fm_image *low = NULL, *high = NULL;
+    fm_status status = picture_read(&low, directory, id, FM_RANGE_LOW_ENDING, err);
+    if (status == FM_OK)
+        status = picture_read(&high, directory, id, FM_RANGE_HIGH_ENDING, err);
+    set->has_range = status == FM_OK && low != NULL && high != NULL;
+    const picture_pair pair = { high, low, "the range's upper end", "its lower end", ".range" };
+    if (set->has_range)
+        status = write_difference(&set->range, directory, id, &pair, err);
+    image_destroy(low);
+    image_destroy(high);
+    return status;
+}
+
 fm_status pictures_write(fm_picture_set *set, const char *directory, const char *id, fm_error *err)
 {
     fm_image *result = NULL, *truth = NULL;
-    *set = (fm_picture_set){ .max_difference = NAN };
+    *set = (fm_picture_set){ .difference = { .most = NAN }, .range = { .most = NAN } };
     fm_status status = convert(&result, directory, id, "", err);
     if (status == FM_OK)
         status = convert(&truth, directory, id, ".truth", err);
+    const picture_pair pair = { result, truth, "result", "truth", ".difference" };
     if (status == FM_OK && result != NULL && truth != NULL)
-        status = write_difference(set, directory, id, result, truth, err);
+        status = write_difference(&set->difference, directory, id, &pair, err);
+    if (status == FM_OK)
+        status = write_range(set, directory, id, err);
     set->has_result = result != NULL;
     set->has_truth = truth != NULL;
     image_destroy(result);

@@ -10,16 +10,24 @@
 #define FM_HEAT_LOW  1e-4
 #define FM_HEAT_HIGH 1.0
 
+/* What a heat map shows. */
+typedef struct fm_heat {
+    double most;  /* over channels and pixels; NAN: there is no map */
+    double share; /* of pixels above FM_HEAT_LOW */
+} fm_heat;
+
 typedef struct fm_picture_set {
-    bool has_result, has_truth; /* heat map: both */
-    double max_difference;      /* over channels and pixels; NAN without truth */
-    double worst_share;         /* of pixels above FM_HEAT_LOW */
+    bool has_result, has_truth; /* heat map of their difference: both */
+    bool has_range;             /* frames drew different images */
+    fm_heat difference;
+    fm_heat range; /* of each pixel the most of all frames less the least */
 } fm_picture_set;
 
 /* Reads images/ID.rgba32f and images/ID.truth.rgba32f under directory, where they are, and writes
- * images/ID.png, ID.exr, ID.truth.png, ID.truth.exr, ID.difference.png and ID.difference.exr. PNGs
- * are sRGB over white. A missing picture is no error; FM_INVALID: damaged, or of different sizes.
- */
+ * images/ID.png, ID.exr, ID.truth.png, ID.truth.exr, ID.difference.png and ID.difference.exr. Of
+ * ID.low.rgba32f and ID.high.rgba32f (image/image_range.h) it writes ID.range.png and ID.range.exr.
+ * PNGs are sRGB over white. A missing picture is no error; FM_INVALID: damaged, or of different
+ * sizes. */
 fm_status pictures_write(fm_picture_set *set, const char *directory, const char *id, fm_error *err);
 
 /* Which colour a map's values have. */

@@ -228,6 +228,56 @@ static void add_note(fm_text *page, const fm_result_files *results,
     text_free(&titles);
 }
 
+/* Of a method's cases with different pictures the one whose worst frame is the worst; NULL: none.
+ */
+static const fm_case_row *most_unstable(const fm_result_files *results, const char *method)
+{
+    const fm_case_row *worst = NULL;
+    for (size_t i = 0; i < results->count; i++) {
+        const fm_case_row *result = &results->cases[i];
+        if (!is_unstable(result) || strcmp(result->method, method) != 0)
+            continue;
+        if (worst == NULL ||
+            result->metric[FM_METRIC_FRAMES_RMSE_MAX] > worst->metric[FM_METRIC_FRAMES_RMSE_MAX])
+            worst = result;
+    }
+    return worst;
+}
+
+/* Results of older runs have the number of pictures alone. */
+static void add_instability(fm_text *page, const fm_case_row *result)
+{
+    const double frames = result->metric[FM_METRIC_FRAMES_DRAWN];
+    const double rmse = result->metric[FM_METRIC_FRAMES_RMSE_MAX];
+    const double kinds = result->metric[FM_METRIC_DISTINCT_FRAGMENTS];
+    html_add(page, result->look.title);
+    text_add(page, ": %.0f pictures", result->metric[FM_METRIC_DISTINCT_IMAGES]);
+    if (!isnan(frames))
+        text_add(page, " in %.0f frames", frames);
+    if (!isnan(rmse))
+        text_add(page, ", rmse up to %.3g", rmse);
+    if (!isnan(kinds))
+        text_add(page, ", %.0f sets of fragments in %.0f captured frames", kinds,
+                 result->metric[FM_METRIC_CAPTURED_FRAMES]);
+}
+
+static void add_unstable(fm_text *page, const fm_result_files *results)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < results->count; i++) {
+        const fm_case_row *result = &results->cases[i];
+        if (!is_unstable(result) || most_unstable(results, result->method) != result)
+            continue;
+        text_add(page, count++ == 0 ? "<p class=note>Timed frames drew different pictures of the "
+                                      "same case; of each method the case with the worst frame: "
+                                    : "; ");
+        add_instability(page, result);
+    }
+    if (count > 0)
+        text_add(page,
+                 ". The ranges among the <a href=\"#pictures\">pictures</a> show where.</p>\n");
+}
+
 static bool any_stand_in(const fm_result_files *results)
 {
     for (size_t i = 0; i < results->count; i++)
@@ -250,7 +300,7 @@ void page_add_notes(fm_text *page, const fm_result_files *results)
     add_note(page, results, is_noisy,
              "The machine was busy, or launches disagree: the column noisy of summary.csv says of "
              "each row why its times cannot be relied on.");
-    add_note(page, results, is_unstable, "Timed frames drew different pictures of the same case.");
+    add_unstable(page, results);
     add_note(page, results, is_empty,
              "Cases in which nothing was drawn: no fragment lies in their pictures. They are ok, "
              "for an empty picture is right, but their times are those of empty frames.");

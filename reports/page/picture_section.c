@@ -48,17 +48,27 @@ static fm_status add_heat_scale(fm_writer *to)
                         "fragments that its method is to keep: the k nearest, or all. The heat map "
                         "is the largest difference "
                         "of a pixel over its four channels, on one scale for all cases; black is "
-                        "up to 1e-4.</p>\n<div class=scale>");
+                        "up to 1e-4. Where timed frames drew different pictures, the range is "
+                        "what each pixel was at most in any frame of any launch, less what it was "
+                        "at least.</p>\n<div class=scale>");
     status = html_add_png(&to->page, path, "colour bar from 1e-4 to 1", to->err);
     text_add(&to->page, "<div><span>1e-4</span><span>1e-3</span><span>0.01</span><span>0.1</span>"
                         "<span>1</span></div></div>\n");
     return status;
 }
 
+enum { CAPTION_BYTES = 192 };
+
+static void heat_caption(char caption[CAPTION_BYTES], const char *what, const fm_heat *heat)
+{
+    snprintf(caption, CAPTION_BYTES, "%.96s: at most %.3g; %.3g %% of pixels above 1e-4", what,
+             heat->most, 100.0 * heat->share);
+}
+
 static fm_status add_case_pictures(fm_writer *to, size_t *embedded, const fm_group *group,
                                    const fm_case_row *result, const fm_picture_set *set)
 {
-    char title[96], caption[160];
+    char title[96], caption[CAPTION_BYTES];
     fm_status status = FM_OK;
     group_series_title(title, result, NULL);
     text_add(&to->page, "<h3>");
@@ -73,10 +83,14 @@ static fm_status add_case_pictures(fm_writer *to, size_t *embedded, const fm_gro
     if (status == FM_OK && set->has_truth)
         status = add_picture(to, embedded, result->id, ".truth", "truth");
     if (status == FM_OK && set->has_result && set->has_truth) {
-        snprintf(caption, sizeof caption,
-                 "|difference|: at most %.3g; %.3g %% of pixels above 1e-4", set->max_difference,
-                 100.0 * set->worst_share);
+        heat_caption(caption, "|difference|", &set->difference);
         status = add_picture(to, embedded, result->id, ".difference", caption);
+    }
+    if (status == FM_OK && set->has_range) {
+        snprintf(title, sizeof title, "range of %.0f pictures in %.0f frames",
+                 result->metric[FM_METRIC_DISTINCT_IMAGES], result->metric[FM_METRIC_FRAMES_DRAWN]);
+        heat_caption(caption, title, &set->range);
+        status = add_picture(to, embedded, result->id, ".range", caption);
     }
     text_add(&to->page, "</div>\n");
     return status;

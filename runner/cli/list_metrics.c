@@ -36,7 +36,7 @@ static const char *files(const fm_metric_info *info)
     if (info->of == FM_OF_REPORT)
         return "none";
     if (info->of == FM_OF_LAUNCH)
-        return "samples, without frame";
+        return has_column ? "samples, without frame; largest in summary" : "samples, without frame";
     if (info->of == FM_OF_FRAME)
         return has_column ? "samples, median in summary" : "samples";
     return has_column || info->of == FM_OF_SUMMARY ? "summary"

@@ -12,43 +12,37 @@ static size_t pixel_count(const fm_image *image)
     return (size_t)image->width_px * image->height_px;
 }
 
-/* Sums over pixels; `absolute` is given pixel by pixel. */
-typedef struct sums {
-    double squares, most;
-    uint64_t pixels;
-} sums;
-
-static float add_pixel(sums *sum, const float *image, const float *reference)
+float difference_add(difference_sums *sums, const float image[4], const float reference[4])
 {
     double largest = 0;
     for (int c = 0; c < 4; c++) {
         const double apart = fabs((double)image[c] - (double)reference[c]);
         const double known = isfinite(apart) ? apart : INFINITY;
-        sum->squares += known * known;
+        sums->squares += known * known;
         largest = fmax(largest, known);
     }
-    sum->most = fmax(sum->most, largest);
-    sum->pixels++;
+    sums->most = fmax(sums->most, largest);
+    sums->pixels++;
     return (float)largest;
 }
 
-static fm_difference difference_of(const sums *sum)
+fm_difference difference_of(const difference_sums *sums)
 {
-    if (sum->pixels == 0)
+    if (sums->pixels == 0)
         return (fm_difference){ NAN, NAN, NAN };
-    const double rmse = sqrt(sum->squares / (4.0 * (double)sum->pixels));
+    const double rmse = sqrt(sums->squares / (4.0 * (double)sums->pixels));
     return (fm_difference){ .rmse = rmse,
                             .psnr_db = rmse > 0.0 ? -20.0 * log10(rmse) : INFINITY,
-                            .max_abs = sum->most };
+                            .max_abs = sums->most };
 }
 
 fm_status image_difference(fm_difference *difference, const fm_image *image,
                            const fm_image *reference, fm_error *err)
 {
-    sums sum = { 0 };
+    difference_sums sum = { 0 };
     const fm_status status = image_check_sizes(image, reference, err);
     for (size_t i = 0; status == FM_OK && i < pixel_count(image); i++)
-        add_pixel(&sum, image->rgba + 4 * i, reference->rgba + 4 * i);
+        difference_add(&sum, image->rgba + 4 * i, reference->rgba + 4 * i);
     *difference = difference_of(&sum);
     return status;
 }
@@ -90,11 +84,11 @@ static double mean_of(const maps *m, const float *map, fm_region region)
 
 static void fill_region(fm_region_error *error, maps *m, fm_region region)
 {
-    sums sum = { 0 };
+    difference_sums sum = { 0 };
     for (size_t i = 0; i < m->pixels; i++)
         if (is_in(m, region, i))
-            m->absolute[i] =
-                add_pixel(&sum, m->desc->image->rgba + 4 * i, m->desc->reference->rgba + 4 * i);
+            m->absolute[i] = difference_add(&sum, m->desc->image->rgba + 4 * i,
+                                            m->desc->reference->rgba + 4 * i);
     error->pixels = sum.pixels;
     error->difference = difference_of(&sum);
     pool_map(&error->absolute, m, m->absolute, region);

@@ -14,6 +14,12 @@ typedef struct fm_difference {
     double max_abs;
 } fm_difference;
 
+/* The largest errors of several images of one case, perhaps of three different ones. */
+typedef struct fm_worst_error {
+    double rmse, max_abs; /* against the pictures of the wanted fragments */
+    double total_rmse;    /* against those of all fragments */
+} fm_worst_error;
+
 /* Where. Pixels that nothing covers are right whatever the method does; over a viewport that is
  * mostly empty they hide its errors. */
 typedef enum fm_region { FM_REGION_VIEWPORT, FM_REGION_COVERED, FM_REGION_COUNT } fm_region;
@@ -44,7 +50,18 @@ typedef struct image_compare_desc {
  * FM_INVALID: sizes differ, or as image_flip says; FM_NO_MEMORY. */
 fm_status image_compare(fm_image_error *error, const image_compare_desc *desc, fm_error *err);
 
-/* The first measures alone, over the viewport. FM_INVALID: sizes differ. */
+/* The first measures alone, pixel by pixel: whoever has no picture to compare with adds what it
+ * would hold. Starts as {0}. */
+typedef struct difference_sums {
+    double squares, most;
+    uint64_t pixels;
+} difference_sums;
+/* Adds a pixel; returns the error of its worst channel. One that is no number is infinite. */
+float difference_add(difference_sums *sums, const float image[4], const float reference[4]);
+/* All are NAN if no pixel was added. */
+fm_difference difference_of(const difference_sums *sums);
+
+/* The same of whole images, over the viewport. FM_INVALID: sizes differ. */
 fm_status image_difference(fm_difference *difference, const fm_image *image,
                            const fm_image *reference, fm_error *err);
 

@@ -174,7 +174,29 @@ const fm_metric_info fm_metrics[FM_METRIC_COUNT] = {
     [FM_METRIC_TOTAL_FLIP] = { "total_flip", "total, FLIP", "",
         "flip of the image against the picture of all fragments", CASE, LESS, ERRORS },
     [FM_METRIC_DISTINCT_IMAGES] = { "distinct_images", "distinct images", "",
-        "how many different images all timed frames drew", SUMMARY, LESS, MEASURED, WHOLE },
+        "how many different images all timed frames drew, of all launches", SUMMARY, LESS, MEASURED, WHOLE },
+    [FM_METRIC_FRAMES_DRAWN] = { "frames_drawn", "frames drawn", "",
+        "timed frames of all launches, at full clock or not: what distinct_images counts of", SUMMARY,
+        MEASURED, WHOLE },
+    [FM_METRIC_FRAMES_RMSE_MAX] = { "frames_rmse_max", "RMSE, worst frame", "",
+        "the largest rmse of any timed frame's image; rmse is of one frame, the last of launch 0. Of a "
+        "launch: of its images that no launch before drew, none where there is no such; of the case: of "
+        "all timed frames of all launches", LAUNCH, LESS, MEASURED, ERRORS },
+    [FM_METRIC_FRAMES_MAX_ABS] = { "frames_max_abs", "largest error, worst frame", "",
+        "the largest max_abs of the same images", LAUNCH, LESS, MEASURED, ERRORS },
+    [FM_METRIC_FRAMES_TOTAL_RMSE_MAX] = { "frames_total_rmse_max", "total, worst frame", "",
+        "the largest total_rmse of the same images", LAUNCH, LESS, MEASURED, ERRORS },
+    [FM_METRIC_CAPTURED_FRAMES] = { "captured_frames", "captured frames", "",
+        "frames of launch 0, beside the timed ones, whose fragments were captured: 4 if the method is "
+        "declared racy, or if the launch's timed frames drew different images; else 1. missing, extra and "
+        "misordered are of the first; where loops make a method draw anew for each 64 MiB of fragments, "
+        "each is put together of several frames", CASE, WHOLE },
+    [FM_METRIC_DISTINCT_FRAGMENTS] = { "distinct_fragments", "distinct fragments", "",
+        "how many of the captured frames differ from all before in the fragments of any pixel: their "
+        "number, depths or colours; in which order they were handed over does not count", CASE, LESS,
+        MEASURED, WHOLE },
+    [FM_METRIC_MISSING_MAX] = { "missing_max", "missing, worst frame", "",
+        "the largest missing of the captured frames", CASE, LESS, MEASURED, WHOLE },
     [FM_METRIC_IMAGE_ULP_MAX] = { "image_ulp_max", "rounding", "ulp",
         "self_max_abs in units in the last place of the format that accumulate names, at the value in "
         "double precision, the largest of all channels; an alpha's unit is that of the larger of alpha "

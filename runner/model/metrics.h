@@ -83,6 +83,14 @@ typedef enum fm_metric {
     FM_METRIC_TOTAL_SSIM,
     FM_METRIC_TOTAL_FLIP,
     FM_METRIC_DISTINCT_IMAGES,
+    /* how far frames of one case are apart */
+    FM_METRIC_FRAMES_DRAWN,
+    FM_METRIC_FRAMES_RMSE_MAX,
+    FM_METRIC_FRAMES_MAX_ABS,
+    FM_METRIC_FRAMES_TOTAL_RMSE_MAX,
+    FM_METRIC_CAPTURED_FRAMES,
+    FM_METRIC_DISTINCT_FRAGMENTS,
+    FM_METRIC_MISSING_MAX,
     FM_METRIC_IMAGE_ULP_MAX,
     /* what follows from times */
     FM_METRIC_TIMES_FLOOR,
@@ -127,7 +135,8 @@ typedef enum fm_better {
 /* What one value of a metric belongs to, and so where it stands. */
 typedef enum fm_metric_of {
     FM_OF_FRAME,   /* a timed frame of a launch: rows of samples.csv; summary.csv has the median */
-    FM_OF_LAUNCH,  /* a launch: rows of samples.csv without a frame */
+    FM_OF_LAUNCH,  /* a launch: rows of samples.csv without a frame; in a column of summary.csv the
+                      largest of all launches */
     FM_OF_CASE,    /* a case: summary.csv, or a row of samples.csv without launch and frame */
     FM_OF_SUMMARY, /* a case, from all its launches: summary.csv alone */
     FM_OF_REPORT   /* a case, worked out when it is charted: no file has it */

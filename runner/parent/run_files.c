@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "image/image_range.h"
 #include "model/feeds.h"
 #include "run_internal.h"
 
@@ -37,7 +38,8 @@ fm_status run_make_folders(const run_state *run, fm_error *err)
 
 static void remove_images(const run_state *run, size_t case_index)
 {
-    static const char *const endings[] = { ".rgba32f", ".truth.rgba32f" };
+    static const char *const endings[] = { ".rgba32f", ".truth.rgba32f", FM_RANGE_LOW_ENDING,
+                                           FM_RANGE_HIGH_ENDING };
     char path[FM_PATH_MAX_BYTES];
     for (size_t i = 0; i < sizeof endings / sizeof endings[0]; i++)
         if (run_path(path, run, "images", run->plan->cases[case_index].id, endings[i], NULL) ==

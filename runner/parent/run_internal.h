@@ -3,6 +3,7 @@
  *   run_request.c what workers are asked for a case
  *   run_attempt.c a worker, asked again where it died
  *   run_code.c    whether rows and truths were made by the code that is here now
+ *   run_range.c   what all images of a case reach, over its launches
  *   run_step.c    one launch, or the capture of one truth, from request to row
  *   run_resume.c  what an earlier run left, from its journal
  *   run.c         a run: what is left of it, its rounds, its end */
@@ -110,6 +111,17 @@ fm_status run_find_truth(bool *is_there, run_state *run, size_t job, const char 
 /* Keeps beside a truth what captured it. */
 fm_status run_keep_truth_code(const run_state *run, const char *path, const json_t *answer,
                               fm_error *err);
+
+/* run_range.c */
+/* Where a launch writes what its new images reach (image/image_range.h); "": images are not kept.
+ */
+fm_status run_range_path(char path[FM_PATH_MAX_BYTES], const run_state *run, size_t case_index,
+                         fm_error *err);
+/* Takes that into images/ID.low.rgba32f and .high.rgba32f, which are of all launches, and not there
+ * where all drew one image; or leaves it out, where the launch does not count. Nothing is left of
+ * the launch's own. FM_IO. */
+fm_status run_take_range(const run_state *run, size_t case_index, uint32_t launch, bool is_counted,
+                         fm_error *err);
 
 /* run_step.c */
 /* The case is to be launched, and not finished. */

@@ -109,16 +109,38 @@ fm_status run_capture_truth(run_state *run, size_t job, fm_error *err)
     return status;
 }
 
+/* What a launch left goes into images/ before it is told that it ended: a run that is killed
+ * between the two measures it again. */
+static fm_status end_measure(run_state *run, size_t case_index, uint32_t launch, json_t *answer,
+                             bool is_unfinished, fm_error *err)
+{
+    const char *id = run->plan->cases[case_index].id;
+    const bool is_counted = !is_unfinished && case_status_continues(answer_status(answer));
+    fm_status status = run_take_range(run, case_index, launch, is_counted, err);
+    if (status != FM_OK || is_unfinished) {
+        const fm_status stopped = journal_write(run->journal, FM_JOURNAL_STOP, id, launch, NULL,
+                                                status == FM_OK ? err : NULL);
+        return status == FM_OK ? stopped : status;
+    }
+    status = run_end_launch(run, case_index, launch, answer, err);
+    if (run->is_other_code) /* the launch is not the row's, and is to be done again */
+        journal_write(run->journal, FM_JOURNAL_STOP, id, launch, NULL, NULL);
+    return status;
+}
+
 fm_status run_measure(run_state *run, size_t case_index, uint32_t launch, fm_error *err)
 {
     const fm_case *planned = &run->plan->cases[case_index];
-    char truth[FM_PATH_MAX_BYTES], image[FM_PATH_MAX_BYTES] = "", k[FM_PATH_MAX_BYTES],
-                                   current[160], kept[KEPT_KIND_COUNT][FM_PATH_MAX_BYTES];
+    char truth[FM_PATH_MAX_BYTES], image[FM_PATH_MAX_BYTES] = "", range[FM_PATH_MAX_BYTES] = "",
+                                   k[FM_PATH_MAX_BYTES], current[160],
+                                   kept[KEPT_KIND_COUNT][FM_PATH_MAX_BYTES];
     const size_t job = run->truths.of_case[case_index];
     fm_launch_outcome outcome;
     fm_status status = run_path(truth, run, "truth", run->truths.jobs[job].name, ".truth", err);
     if (status == FM_OK && launch == 0 && !run->desc->no_images && !planned->no_image)
         status = run_path(image, run, "images", planned->id, ".rgba32f", err);
+    if (status == FM_OK)
+        status = run_range_path(range, run, case_index, err);
     for (int kind = 0; kind < KEPT_KIND_COUNT && status == FM_OK; kind++)
         status = run_kept_path(kept[kind], run, case_index, (kept_kind)kind, err);
     if (status == FM_OK)
@@ -133,6 +155,9 @@ fm_status run_measure(run_state *run, size_t case_index, uint32_t launch, fm_err
     progress_begin(&run->progress, current);
     fm_request request = run_request_for(run, planned, job, truth);
     request.image = image;
+    request.range = range;
+    request.known_images = run->results->cases[case_index].images;
+    request.known_count = run->results->cases[case_index].image_count;
     request.check = launch == 0;
     request.launch = launch;
     for (int kind = 0; kind < KEPT_KIND_COUNT; kind++)
@@ -145,18 +170,14 @@ fm_status run_measure(run_state *run, size_t case_index, uint32_t launch, fm_err
     char **death = &run->results->cases[case_index].launches[launch].death;
     status = run_attempt_launch(&outcome, run, &attempt, death, err);
     if (status != FM_OK) { /* whoever reads the journal is told that it did not finish */
+        run_take_range(run, case_index, launch, false, NULL);
         journal_write(run->journal, FM_JOURNAL_STOP, planned->id, launch, NULL, NULL);
         return status;
     }
     const bool is_interrupted = outcome.kind == FM_LAUNCH_INTERRUPTED;
     const bool is_unfinished = is_interrupted || answer_is_runs_fault(outcome.result) ||
                                is_of_given_limit(run, outcome.result);
-    if (is_unfinished)
-        status = journal_write(run->journal, FM_JOURNAL_STOP, planned->id, launch, NULL, err);
-    else
-        status = run_end_launch(run, case_index, launch, outcome.result, err);
-    if (run->is_other_code) /* the launch is not the row's, and is to be done again */
-        journal_write(run->journal, FM_JOURNAL_STOP, planned->id, launch, NULL, NULL);
+    status = end_measure(run, case_index, launch, outcome.result, is_unfinished, err);
     if (is_interrupted)
         return status;
     if (status == FM_OK && is_unfinished) {

@@ -186,8 +186,7 @@ static bool find_rule(metric_rule *rule, const char *name)
     return (info != NULL || counter != NULL) && strlen(name) <= NAME_BYTES;
 }
 
-/* JSON has no words for what is no finite number: such travel as texts. */
-static bool read_value(double *value, const json_t *json)
+bool answer_value(double *value, const json_t *json)
 {
     static const struct {
         const char *text;
@@ -213,7 +212,7 @@ static fm_status check_number(const char *name, const json_t *json, fm_metric_of
                        of == FM_OF_FRAME    ? "frame"
                        : of == FM_OF_LAUNCH ? "launch"
                                             : "case");
-    if (!read_value(&value, json))
+    if (!answer_value(&value, json))
         return fm_fail(err, FM_INVALID, "'%.80s' is not a number", name);
     if (!metric_in_range(rule.range, value))
         return fm_fail(err, FM_INVALID, "'%.80s' is %.17g, not %s", name, value,

@@ -9,6 +9,7 @@
 #define FM_ANSWER_CHECK_H
 
 #include <jansson.h>
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "base/error.h"
@@ -20,5 +21,9 @@ fm_status answer_check(const json_t *answer, uint32_t frames, fm_error *err);
 /* What is asked of a worker beside that, and not of journals, which older programs wrote: a case
  * that is not supported has a reason. After answer_check; FM_INVALID. */
 fm_status answer_check_reason(const json_t *answer, fm_error *err);
+
+/* A number of a case or launch: JSON has no words for what is no finite number, so such travel as
+ * the texts "inf", "-inf" and "nan". false: it is none of these. */
+bool answer_value(double *value, const json_t *json);
 
 #endif

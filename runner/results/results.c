@@ -1,4 +1,5 @@
 #include "results.h"
+#include "answer_check.h"
 #include "base/clock.h"
 #include "base/csv.h"
 #include "base/file.h"
@@ -247,10 +248,8 @@ static fm_status keep_launch(fm_text *rows, fm_results *results, size_t case_ind
     fm_status status = FM_OK;
     json_object_foreach(answer_launch(answer), name, value)
     {
-        const fm_answer_sample sample = { .frame = FM_FRAME_NONE,
-                                          .metric = name,
-                                          .unit = unit_of(name),
-                                          .value = json_number_value(value) };
+        fm_answer_sample sample = { .frame = FM_FRAME_NONE, .metric = name, .unit = unit_of(name) };
+        answer_value(&sample.value, value);
         add_sample_row(rows, results, results->plan->cases[case_index].id, launch, &sample);
         if (status == FM_OK)
             status = keep_sample(results, case_index, launch, &sample, err);

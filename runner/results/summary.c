@@ -291,6 +291,22 @@ static void write_distinct_images(fm_text *text, const row_state *row)
         text_add(text, "%zu", row->result->image_count);
 }
 
+static void write_frames_drawn(fm_text *text, const row_state *row)
+{
+    if (row->samples + row->excluded > 0)
+        text_add(text, "%zu", row->samples + row->excluded);
+}
+
+/* A metric of launches: the largest. */
+static double largest_of(const row_state *row, fm_metric metric)
+{
+    const size_t count = gather(row, metric, UINT32_MAX);
+    double largest = NAN;
+    for (size_t i = 0; i < count; i++)
+        largest = fmax(largest, row->values[i]);
+    return largest;
+}
+
 /* What follows from all launches of a case. */
 static void write_summary_metric(fm_text *text, const row_state *row, fm_metric metric)
 {
@@ -300,6 +316,8 @@ static void write_summary_metric(fm_text *text, const row_state *row, fm_metric 
         text_add(text, "%zu", row->samples);
     else if (metric == FM_METRIC_DISTINCT_IMAGES)
         write_distinct_images(text, row);
+    else if (metric == FM_METRIC_FRAMES_DRAWN)
+        write_frames_drawn(text, row);
     else
         csv_add_real(text, interval_of(row, metric).median);
 }
@@ -317,6 +335,8 @@ static void write_metric(fm_text *text, const row_state *row, fm_metric metric)
         write_summary_metric(text, row, metric);
         break;
     case FM_OF_LAUNCH:
+        csv_add_real(text, largest_of(row, metric));
+        break;
     case FM_OF_REPORT:
         break;
     }

@@ -120,3 +120,9 @@ void check_pixel(fm_check *check, fm_fragment *captured, uint32_t captured_count
     if (used != on_stack)
         free(used);
 }
+
+uint64_t check_faults(const fm_check *check)
+{
+    return check->missing - check->excused.at_depth_one - check->excused.of_ties + check->extra +
+           check->misordered;
+}

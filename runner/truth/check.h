@@ -27,6 +27,9 @@ typedef struct fm_check {
 void check_pixel(fm_check *check, fm_fragment *captured, uint32_t captured_count,
                  const fm_fragment *truth, uint32_t truth_count, uint32_t wanted);
 
+/* Missing fragments that are not declared, extra and misordered ones. */
+uint64_t check_faults(const fm_check *check);
+
 /* A depth as a number that rises with it, and how the check sorts: by depth, then by colour. */
 uint32_t check_depth_bits(const fm_fragment *fragment);
 int check_compare(const fm_fragment *a, const fm_fragment *b);

@@ -1,6 +1,7 @@
 #include "reference.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #include "loss.h"
 
@@ -124,12 +125,23 @@ void reference_free(fm_reference *reference)
     *reference = (fm_reference){ 0 };
 }
 
+static float exposed(float value, double scale)
+{
+    return (float)((double)value * scale);
+}
+
 static void expose(fm_image *image, double scale)
 {
     const size_t values = 4 * (size_t)image->width_px * image->height_px;
     for (size_t i = 0; i < values; i++)
         if (i % 4 != 3)
-            image->rgba[i] = (float)((double)image->rgba[i] * scale);
+            image->rgba[i] = exposed(image->rgba[i], scale);
+}
+
+void reference_expose_image(fm_image *image, double stops)
+{
+    if (fabs(stops) > 0) /* else the same picture, to the bit */
+        expose(image, exp2(stops));
 }
 
 void reference_expose(fm_reference *reference, fm_image *image, double stops)
@@ -174,6 +186,69 @@ fm_status reference_distance(double *max_abs, const reference_images *compared, 
         forget_row(&walk, i);
     }
     end(&walk);
+    return status;
+}
+
+/* The sums of one image. */
+typedef struct image_sums {
+    difference_sums wanted, all;
+} image_sums;
+
+/* Adds a pixel's distance from the nearest that the range allows. */
+static void add_distance(difference_sums *sums, const fm_range *range, const float rgba[4],
+                         double scale)
+{
+    float nearest[4], image[4];
+    set_nearest(nearest, range, rgba);
+    for (int c = 0; c < 4; c++) {
+        image[c] = c < 3 ? exposed(rgba[c], scale) : rgba[c];
+        nearest[c] = c < 3 ? exposed(nearest[c], scale) : nearest[c];
+    }
+    difference_add(sums, image, nearest);
+}
+
+static void add_distances(image_sums *sums, const pixel_walk *walk,
+                          const reference_images *compared, uint64_t pixel, double scale)
+{
+    const uint64_t *offsets = &walk->truth->offsets[pixel];
+    fm_range wanted, all;
+    find_range(&wanted, walk, pixel, compared->wanted);
+    all = wanted;
+    if (offsets[1] - offsets[0] > compared->wanted)
+        find_range(&all, walk, pixel, UINT32_MAX);
+    for (size_t i = 0; i < compared->count; i++) {
+        const float *rgba = &compared->images[i]->rgba[4 * pixel];
+        add_distance(&sums[i].wanted, &wanted, rgba, scale);
+        add_distance(&sums[i].all, &all, rgba, scale);
+    }
+}
+
+static void take_worst(fm_worst_error *worst, const image_sums *sums)
+{
+    const fm_difference wanted = difference_of(&sums->wanted), all = difference_of(&sums->all);
+    worst->rmse = fmax(worst->rmse, wanted.rmse);
+    worst->max_abs = fmax(worst->max_abs, wanted.max_abs);
+    worst->total_rmse = fmax(worst->total_rmse, all.rmse);
+}
+
+fm_status reference_worst(fm_worst_error *worst, const reference_images *compared, double stops,
+                          fm_error *err)
+{
+    const fm_truth *truth = compared->truth;
+    const uint64_t pixels = (uint64_t)truth->width_px * truth->height_px;
+    pixel_walk walk;
+    image_sums *sums = calloc(compared->count + 1, sizeof *sums);
+    fm_status status = begin(&walk, truth, compared->wanted, err);
+    if (status == FM_OK && sums == NULL)
+        status = fm_fail(err, FM_NO_MEMORY, "errors of %zu images", compared->count);
+    for (uint64_t i = 0; i < pixels && status == FM_OK; i++) {
+        add_distances(sums, &walk, compared, i, exp2(stops));
+        forget_row(&walk, i);
+    }
+    for (size_t i = 0; i < compared->count && status == FM_OK; i++)
+        take_worst(worst, &sums[i]);
+    end(&walk);
+    free(sums);
     return status;
 }
 

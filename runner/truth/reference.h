@@ -9,6 +9,7 @@
 #ifndef FM_REFERENCE_H
 #define FM_REFERENCE_H
 
+#include "image/image_error.h"
 #include "rounding.h"
 #include "ties.h"
 #include "truth.h"
@@ -45,6 +46,15 @@ typedef struct reference_images {
  * fragments, less what `rounding` may move the pixel by; INFINITY: a channel is no number.
  * FM_NO_MEMORY. */
 fm_status reference_distance(double *max_abs, const reference_images *compared, fm_error *err);
+
+/* Of each image what image_difference finds against the pictures that reference_create makes for
+ * it, exposed by `stops`: bit by bit the same, in one pass over truth for all images; traits and
+ * rounding play no part. *worst: at least what it was. FM_NO_MEMORY. */
+fm_status reference_worst(fm_worst_error *worst, const reference_images *compared, double stops,
+                          fm_error *err);
+
+/* Scales an image's colours by 2^stops; alpha stays. */
+void reference_expose_image(fm_image *image, double stops);
 
 /* The distance of one pixel's channels from a range: the largest; INFINITY as above. */
 double range_distance(const fm_range *range, const float rgba[4]);

@@ -184,6 +184,10 @@ static void add_checked(json_t *metrics, const fm_measurement *m, const fm_truth
     answer_set_number(metrics, FM_METRIC_SELF_BEYOND, m->self_beyond);
     if (m->check.captured > 0) /* an approximation hands none over */
         answer_set_number(metrics, FM_METRIC_IMAGE_ULP_MAX, m->image_ulp_max);
+    if (m->check.captured > 0)
+        answer_set_count(metrics, FM_METRIC_DISTINCT_FRAGMENTS, m->distinct_fragments);
+    answer_set_count(metrics, FM_METRIC_CAPTURED_FRAMES, m->captured_frames);
+    answer_set_count(metrics, FM_METRIC_MISSING_MAX, m->missing_max);
     add_errors(metrics, &m->error, &m->total_error);
     answer_set_number(metrics, FM_METRIC_TRUNCATION_RMSE, m->truncation_rmse);
 }
@@ -266,6 +270,11 @@ void answer_add_launch(json_t *answer, const fm_measurement *m)
     add_known(launch, FM_METRIC_LAUNCH_CPU_S, host_load_own_cpu_s());
     if (m->sample_count > 0)
         add_timed_part(launch, &m->begin, &m->end);
+    if (m->has_new_images) {
+        answer_set_number(launch, FM_METRIC_FRAMES_RMSE_MAX, m->frames_worst.rmse);
+        answer_set_number(launch, FM_METRIC_FRAMES_MAX_ABS, m->frames_worst.max_abs);
+        answer_set_number(launch, FM_METRIC_FRAMES_TOTAL_RMSE_MAX, m->frames_worst.total_rmse);
+    }
     answer_set_launch(answer, launch);
 }
 

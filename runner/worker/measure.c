@@ -2,6 +2,8 @@
 
 #include <stdlib.h>
 
+#include "truth/reference.h"
+
 fm_status measure_case(fm_measurement *measurement, const fm_measure_desc *desc, fm_error *err)
 {
     *measurement = (fm_measurement){ 0 };
@@ -14,6 +16,10 @@ fm_status measure_case(fm_measurement *measurement, const fm_measure_desc *desc,
         status = measure_check_fragments(measurement, desc, err);
     if (status == FM_OK && desc->check)
         status = measure_check_images(measurement, desc, err);
+    if (measurement->range.low != NULL) {
+        reference_expose_image(measurement->range.low, desc->method->settings->exposure);
+        reference_expose_image(measurement->range.high, desc->method->settings->exposure);
+    }
     return status;
 }
 
@@ -23,5 +29,6 @@ void measurement_free(fm_measurement *measurement)
     free(measurement->image_hashes);
     image_destroy(measurement->image);
     image_destroy(measurement->truth_image);
+    image_range_free(&measurement->range);
     *measurement = (fm_measurement){ 0 };
 }

@@ -5,12 +5,17 @@
 
 #include "host_load.h"
 #include "image/image_error.h"
+#include "image/image_range.h"
 #include "instance/instance.h"
 #include "truth/check.h"
 #include "truth/truth.h"
 
 /* A frame over this is sampled twice only. */
 #define MEASURE_LONG_FRAME_NS 2000000000ull
+
+/* Frames whose fragments are captured of a method that is declared racy, or whose timed frames drew
+ * different images. Of others it is one. */
+enum { MEASURE_CAPTURES = 4 };
 
 /* A timed frame of the method, and the frame of the floor that ran beside it. */
 typedef struct fm_sample {
@@ -40,12 +45,20 @@ typedef struct fm_measurement {
     uint32_t distinct_images;
     /* Of an exact method where depths tie: the largest distance of any timed frame's image from
      * what truth allows, beyond what the case rounds (truth/reference.h). */
-    double frames_max_abs;
+    double frames_beyond;
     bool may_differ; /* it is such a method: its frames may draw different images */
+    /* Of the images of timed frames that were not known: the worst, and what they reach, exposed.
+     * range is of no image where a checked launch drew one alone: it is `image`. */
+    fm_worst_error frames_worst;
+    fm_image_range range; /* owned */
+    bool has_new_images;  /* else these are of none */
 
     /* checked launches only */
     bool is_checked;
-    fm_check check;
+    fm_check check;       /* of the first captured frame */
+    fm_check worst_check; /* of the one with the most faults (check_faults) */
+    uint32_t captured_frames, distinct_fragments;
+    uint64_t missing_max;             /* of any captured frame */
     uint64_t culled, locked, arrived; /* as of a frame: fm_frame_result */
     /* Timed image against its own fragments composited in double; where a tie leaves their order
      * open, against what that allows (truth/reference.h), as in all that follows. */
@@ -66,6 +79,9 @@ typedef struct fm_measure_desc {
     const fm_truth *truth;
     uint32_t frames, warmup;
     bool check;
+    const uint64_t *known_images; /* [known_count]: hashes of images that earlier launches drew and
+                                     compared; they are not compared again */
+    size_t known_count;
     const char *keep; /* file for the captured fragments (truth/kept_file.h); NULL or "": none */
 } fm_measure_desc;
 

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <xxhash.h>
 
 #include "measure_internal.h"
 #include "plugin/culling_apply.h"
@@ -17,6 +18,10 @@ enum {
 
 typedef struct checking {
     fm_measurement *measurement;
+    fm_check sums;                     /* of the running capture */
+    uint64_t hashes[MEASURE_CAPTURES]; /* of the fragments of each capture so far */
+    uint32_t capture;                  /* number of the running one */
+    bool is_repeated;                  /* there may be several: fragments may differ */
     const fm_truth *truth;
     fm_stage *stage;
     uint32_t wanted;
@@ -36,7 +41,7 @@ static uint32_t gather(checking *check, uint32_t local)
     const fm_fragment *row = &check->fragments[(uint64_t)local * check->slots];
     const uint32_t front = check->counts[local][0], back = check->counts[local][1];
     if ((uint64_t)front + back > check->slots) { /* more than anybody could want */
-        check->measurement->check.extra += (uint64_t)front + back - check->slots;
+        check->sums.extra += (uint64_t)front + back - check->slots;
         memcpy(check->pixel, row, check->slots * sizeof *row);
         return check->slots;
     }
@@ -45,11 +50,15 @@ static uint32_t gather(checking *check, uint32_t local)
     return front + back;
 }
 
+static uint64_t handed_over(const checking *check, uint32_t local)
+{
+    return (uint64_t)check->counts[local][0] + check->counts[local][1];
+}
+
 /* Before the check sorts them. */
 static void keep_one(const checking *check, uint32_t local, uint32_t count)
 {
-    const uint64_t handed_over = (uint64_t)check->counts[local][0] + check->counts[local][1];
-    const uint64_t more = handed_over - count;
+    const uint64_t more = handed_over(check, local) - count;
     const uint32_t word = more < UINT32_MAX ? (uint32_t)more : UINT32_MAX;
     if (check->kept == NULL)
         return;
@@ -73,32 +82,69 @@ static void check_image(checking *check, uint64_t pixel, const fm_range *range, 
              m->image_ulp_max);
 }
 
-/* All of a pixel: what was captured, and what the timed frame drew there. Where ties leave the
- * order open the timed frame may choose otherwise than the captured one: any picture will do that
- * truth allows or, of a wrong pixel, that its own fragments do. */
-static void check_one(checking *check, uint64_t pixel, uint32_t local)
+/* The pixels of a capture, whatever their order. */
+static void add_hash(checking *check, uint64_t pixel, uint32_t local, uint32_t count)
 {
-    fm_check *sums = &check->measurement->check;
-    const uint64_t first = check->truth->offsets[pixel], wrong_before = sums->wrong_pixels;
-    const uint32_t all = (uint32_t)(check->truth->offsets[pixel + 1] - first);
-    const uint32_t wanted = check->wanted < all ? check->wanted : all;
-    const uint32_t count = gather(check, local);
-    const fm_fragment *truth = &check->truth->fragments[first];
-    const bool is_open = ties_are_open(truth, all, wanted);
+    const uint64_t seed = pixel << 32 ^ handed_over(check, local);
+    check->hashes[check->capture] +=
+        XXH3_64bits_withSeed(check->pixel, count * sizeof check->pixel[0], seed);
+}
+
+/* A pixel's fragments in truth. */
+typedef struct true_pixel {
+    const fm_fragment *fragments;
+    uint32_t count, wanted;
+} true_pixel;
+
+static true_pixel true_pixel_of(const checking *check, uint64_t pixel)
+{
+    const uint64_t first = check->truth->offsets[pixel];
+    const uint32_t count = (uint32_t)(check->truth->offsets[pixel + 1] - first);
+    return (true_pixel){ .fragments = &check->truth->fragments[first],
+                         .count = count,
+                         .wanted = check->wanted < count ? check->wanted : count };
+}
+
+/* Sorts them. */
+static void check_fragments(checking *check, uint64_t pixel, uint32_t local, uint32_t count)
+{
+    const true_pixel truth = true_pixel_of(check, pixel);
+    check_pixel(&check->sums, check->pixel, count, truth.fragments, truth.count, truth.wanted);
+    if (check->is_repeated)
+        add_hash(check, pixel, local, count);
+}
+
+/* All of a pixel in the first capture: what was captured, and what the timed frame drew there.
+ * Where ties leave the order open the timed frame may choose otherwise than the captured one: any
+ * picture will do that truth allows or, of a wrong pixel, that its own fragments do. */
+static void check_first(checking *check, uint64_t pixel, uint32_t local, uint32_t count)
+{
+    const uint64_t wrong_before = check->sums.wrong_pixels;
+    const true_pixel truth = true_pixel_of(check, pixel);
+    const bool is_open = ties_are_open(truth.fragments, truth.count, truth.wanted);
     double bound = rounding_bound(check->rounding, check->pixel, count, count);
     fm_range range;
     keep_one(check, local, count);
     composite_pixel(range.low, check->pixel, count);
     memcpy(range.high, range.low, sizeof range.high);
-    check_pixel(sums, check->pixel, count, truth, all, wanted); /* sorts them */
-    if (is_open && sums->wrong_pixels == wrong_before) {
-        ties_range(&range, check->ties, truth, all, wanted);
-        bound = rounding_bound(check->rounding, truth, all, wanted);
+    check_fragments(check, pixel, local, count);
+    if (is_open && check->sums.wrong_pixels == wrong_before) {
+        ties_range(&range, check->ties, truth.fragments, truth.count, truth.wanted);
+        bound = rounding_bound(check->rounding, truth.fragments, truth.count, truth.wanted);
     } else if (is_open) {
         ties_range(&range, check->ties, check->pixel, count, count);
     }
     check_image(check, pixel, &range, bound);
     check->measurement->tied_pixels += is_open;
+}
+
+static void check_one(checking *check, uint64_t pixel, uint32_t local)
+{
+    const uint32_t count = gather(check, local);
+    if (check->capture == 0)
+        check_first(check, pixel, local, count);
+    else
+        check_fragments(check, pixel, local, count);
 }
 
 static fm_status check_band(checking *check, const fm_band *band, fm_error *err)
@@ -120,6 +166,17 @@ static fm_status check_band(checking *check, const fm_band *band, fm_error *err)
     return status;
 }
 
+static void note_counts(checking *check, const fm_frame_result *result)
+{
+    fm_measurement *m = check->measurement;
+    m->lost = result->lost > m->lost ? result->lost : m->lost;
+    if (check->capture > 0)
+        return;
+    m->culled = result->culled;
+    m->locked = result->locked;
+    m->arrived = result->arrived;
+}
+
 static fm_status check_bands(checking *check, fm_instance *instance, fm_error *err)
 {
     const uint64_t pixels = (uint64_t)check->truth->width_px * check->truth->height_px;
@@ -133,15 +190,48 @@ static fm_status check_bands(checking *check, fm_instance *instance, fm_error *e
             status = instance_emit(instance, &band, err);
         } else {
             status = measure_frame(&result, check->measurement, instance, &band, err);
-            if (result.lost > check->measurement->lost)
-                check->measurement->lost = result.lost;
-            check->measurement->culled = result.culled;
-            check->measurement->locked = result.locked;
-            check->measurement->arrived = result.arrived;
+            note_counts(check, &result);
         }
         if (status == FM_OK)
             status = check_band(check, &band, err);
     }
+    return status;
+}
+
+/* What one capture found. */
+static void note_capture(checking *check)
+{
+    fm_measurement *m = check->measurement;
+    bool is_new = true;
+    for (uint32_t i = 0; i < check->capture; i++)
+        is_new = is_new && check->hashes[i] != check->hashes[check->capture];
+    m->distinct_fragments += is_new;
+    m->captured_frames++;
+    if (check->capture == 0)
+        m->check = m->worst_check = check->sums;
+    if (check_faults(&check->sums) > check_faults(&m->worst_check))
+        m->worst_check = check->sums;
+    m->missing_max = check->sums.missing > m->missing_max ? check->sums.missing : m->missing_max;
+}
+
+/* Who hands no fragments over, as an approximation, has none that could differ. */
+static uint32_t captures_wanted(const checking *check)
+{
+    return check->is_repeated && check->measurement->check.captured > 0 ? MEASURE_CAPTURES : 1;
+}
+
+static fm_status check_captures(checking *check, fm_instance *instance, uint32_t traits,
+                                fm_error *err)
+{
+    fm_status status;
+    check->is_repeated = (traits & FM_TRAIT_RACY) != 0 || check->measurement->distinct_images > 1;
+    do {
+        check->sums = (fm_check){ .traits = traits };
+        status = check_bands(check, instance, err);
+        if (status == FM_OK)
+            note_capture(check);
+        check->capture++;
+    } while (status == FM_OK && check->capture < captures_wanted(check));
     return status;
 }
 
@@ -199,7 +289,6 @@ fm_status measure_check_fragments(fm_measurement *measurement, const fm_measure_
     fm_instance *instance = NULL;
     kept_writer kept = { .out = NULL };
     fm_status status = create_checking(&check, desc, err);
-    measurement->check.traits = desc->method->method->traits;
     capture.is_capture = true;
     capture.capture_slots = check.slots;
     if (status == FM_OK)
@@ -207,7 +296,7 @@ fm_status measure_check_fragments(fm_measurement *measurement, const fm_measure_
     if (status == FM_OK)
         status = begin_keeping(&check, &kept, desc->keep, err);
     if (status == FM_OK)
-        status = check_bands(&check, instance, err);
+        status = check_captures(&check, instance, desc->method->method->traits, err);
     if (status == FM_OK)
         status = own(kept_finish(&kept, FM_OK, err), err);
     else
@@ -252,6 +341,16 @@ static fm_status compare_both(fm_measurement *measurement, const fm_reference *r
     return status;
 }
 
+/* All timed frames drew the image that was compared here. */
+static void take_one_image(fm_measurement *m)
+{
+    const fm_difference *own = &m->error.region[FM_REGION_VIEWPORT].difference;
+    m->frames_worst.rmse = own->rmse;
+    m->frames_worst.max_abs = own->max_abs;
+    m->frames_worst.total_rmse = m->total_error.region[FM_REGION_VIEWPORT].difference.rmse;
+    m->has_new_images = true;
+}
+
 fm_status measure_check_images(fm_measurement *measurement, const fm_measure_desc *desc,
                                fm_error *err)
 {
@@ -266,6 +365,8 @@ fm_status measure_check_images(fm_measurement *measurement, const fm_measure_des
         reference_expose(&reference, measurement->image, exposure);
     if (status == FM_OK)
         status = compare_both(measurement, &reference, covered, exposure != 0, err);
+    if (status == FM_OK && !measurement->has_new_images)
+        take_one_image(measurement);
     measurement->truncation_rmse = reference.truncation_rmse;
     measurement->truth_image = reference.wanted;
     reference.wanted = NULL;

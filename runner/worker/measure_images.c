@@ -1,5 +1,6 @@
-/* The images of the timed frames. Each is hashed on the device. Where ties allow several, each that
- * differs from those before is kept until the frames are over, and compared with truth. */
+/* The images of the timed frames. Each is hashed on the device. One that differs from those before,
+ * of this launch and of earlier ones, is kept until the frames are over, and compared with truth.
+ */
 #include <math.h>
 
 #include "measure_internal.h"
@@ -38,52 +39,112 @@ void frame_images_begin(frame_images *images, fm_measurement *measurement,
         truth_tied_pixels(desc->truth, measure_wanted(method, desc->method->settings->k)) > 0;
 }
 
-fm_status frame_images_settle(frame_images *images, fm_measurement *measurement, fm_error *err)
+static bool is_among(const uint64_t *hashes, size_t count, uint64_t hash)
+{
+    for (size_t i = 0; i < count; i++)
+        if (hashes[i] == hash)
+            return true;
+    return false;
+}
+
+static bool is_known(const frame_images *images, uint64_t hash)
+{
+    return is_among(images->desc->known_images, images->desc->known_count, hash);
+}
+
+fm_status frame_images_expect(frame_images *images, fm_instance *method, fm_error *err)
+{
+    frame_image *expected = &images->expected;
+    const fm_status status = instance_image_hash(&expected->hash, method, err);
+    if (status != FM_OK || is_known(images, expected->hash))
+        return status;
+    return measure_read_image(&expected->image, images->desc->method->stage, err);
+}
+
+/* The errors of those that wait, and what they reach. */
+static fm_status compare_kept(fm_measurement *measurement, const reference_images *kept,
+                              double stops, fm_error *err)
+{
+    fm_status status = reference_worst(&measurement->frames_worst, kept, stops, err);
+    for (size_t i = 0; i < kept->count && status == FM_OK; i++)
+        status = image_range_add(&measurement->range, kept->images[i], err);
+    measurement->has_new_images = true;
+    return status;
+}
+
+static fm_status settle(frame_images *images, fm_measurement *measurement, fm_error *err)
 {
     const fm_measure_desc *desc = images->desc;
+    fm_image *pictures[FRAME_IMAGES_KEPT];
     const reference_images kept = { .truth = desc->truth,
                                     .wanted = measure_k(measurement, desc),
                                     .traits = desc->method->method->traits,
                                     .rounding = measure_rounding(desc),
-                                    .images = images->kept,
+                                    .images = pictures,
                                     .count = images->count };
     double apart = 0;
-    const fm_status status = images->count > 0 ? reference_distance(&apart, &kept, err) : FM_OK;
-    measurement->frames_max_abs = fmax(measurement->frames_max_abs, apart);
-    frame_images_free(images);
+    fm_status status = FM_OK;
+    for (uint32_t i = 0; i < images->count; i++)
+        pictures[i] = images->kept[i].image;
+    if (kept.count > 0 && measurement->may_differ)
+        status = reference_distance(&apart, &kept, err);
+    measurement->frames_beyond = fmax(measurement->frames_beyond, apart);
+    const bool is_left_to_check = desc->check && measurement->distinct_images == 1;
+    if (status == FM_OK && kept.count > 0 && !is_left_to_check)
+        status = compare_kept(measurement, &kept, desc->method->settings->exposure, err);
     return status;
 }
 
-static bool is_known(const fm_measurement *measurement, uint64_t hash)
+static void drop_kept(frame_images *images)
 {
-    for (uint32_t i = 0; i < measurement->distinct_images; i++)
-        if (measurement->image_hashes[i] == hash)
-            return true;
-    return false;
+    for (uint32_t i = 0; i < images->count; i++)
+        image_destroy(images->kept[i].image);
+    images->count = 0;
 }
 
 fm_status frame_images_add(frame_images *images, fm_measurement *measurement, fm_instance *method,
                            fm_error *err)
 {
-    uint64_t hash;
-    fm_status status = instance_image_hash(&hash, method, err);
-    if (status != FM_OK || is_known(measurement, hash))
+    fm_status status = instance_image_hash(&images->last, method, err);
+    if (status != FM_OK ||
+        is_among(measurement->image_hashes, measurement->distinct_images, images->last))
         return status;
-    measurement->image_hashes[measurement->distinct_images++] = hash;
-    if (!measurement->may_differ)
+    measurement->image_hashes[measurement->distinct_images++] = images->last;
+    if (is_known(images, images->last))
         return FM_OK;
-    if (images->count == images->most)
-        status = frame_images_settle(images, measurement, err);
-    if (status == FM_OK)
-        status = measure_read_image(&images->kept[images->count], images->desc->method->stage, err);
-    if (status == FM_OK)
-        images->count++;
+    if (images->count == images->most) {
+        status = settle(images, measurement, err);
+        drop_kept(images);
+    }
+    frame_image *kept = &images->kept[images->count];
+    *kept = (frame_image){ .hash = images->last };
+    if (images->expected.image != NULL && images->expected.hash == images->last) {
+        kept->image = images->expected.image;
+        images->expected.image = NULL;
+    } else if (status == FM_OK) {
+        status = measure_read_image(&kept->image, images->desc->method->stage, err);
+    }
+    images->count += kept->image != NULL;
+    return status;
+}
+
+fm_status frame_images_end(frame_images *images, fm_measurement *measurement, fm_error *err)
+{
+    fm_status status = settle(images, measurement, err);
+    for (uint32_t i = 0; i < images->count && status == FM_OK; i++) {
+        if (images->kept[i].hash != images->last)
+            continue;
+        measurement->image = images->kept[i].image;
+        images->kept[i].image = NULL;
+    }
+    if (status == FM_OK && measurement->image == NULL)
+        status = measure_read_image(&measurement->image, images->desc->method->stage, err);
     return status;
 }
 
 void frame_images_free(frame_images *images)
 {
-    for (uint32_t i = 0; i < images->count; i++)
-        image_destroy(images->kept[i]);
-    images->count = 0;
+    drop_kept(images);
+    image_destroy(images->expected.image);
+    images->expected.image = NULL;
 }

@@ -19,21 +19,33 @@ fm_rounding measure_rounding(const fm_measure_desc *desc);
 void measure_bytes(fm_measurement *measurement, const fm_instance *instance,
                    const fm_measure_desc *desc);
 
+/* An image and its hash. */
+typedef struct frame_image {
+    fm_image *image; /* NULL: none */
+    uint64_t hash;
+} frame_image;
+
 /* Images of timed frames that wait for their comparison with truth. */
 enum { FRAME_IMAGES_KEPT = 16 };
 typedef struct frame_images {
     const fm_measure_desc *desc;
-    fm_image *kept[FRAME_IMAGES_KEPT];
+    frame_image kept[FRAME_IMAGES_KEPT];
     uint32_t count, most;
+    frame_image expected; /* what the last warm-up frame drew: where timed frames draw the same,
+                             nothing has to be read between them */
+    uint64_t last;        /* hash of the last timed frame's image */
 } frame_images;
 
 void frame_images_begin(frame_images *images, fm_measurement *measurement,
                         const fm_measure_desc *desc);
-/* Hashes the image of the frame that just ended. */
+/* Takes the image of the warm-up frame that just ended. */
+fm_status frame_images_expect(frame_images *images, fm_instance *method, fm_error *err);
+/* Hashes the image of the frame that just ended, and keeps it if it is new. */
 fm_status frame_images_add(frame_images *images, fm_measurement *measurement, fm_instance *method,
                            fm_error *err);
-/* Compares those that wait with truth: frames_max_abs. */
-fm_status frame_images_settle(frame_images *images, fm_measurement *measurement, fm_error *err);
+/* After the last frame: compares those that wait with truth, and fills the measurement's image. A
+ * checked launch whose frames all drew one image leaves the comparison to the check. */
+fm_status frame_images_end(frame_images *images, fm_measurement *measurement, fm_error *err);
 void frame_images_free(frame_images *images);
 /* The image of the last frame; the device keeps 1 - A in place of A. */
 fm_status measure_read_image(fm_image **image, fm_stage *stage, fm_error *err);

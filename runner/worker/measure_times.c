@@ -101,6 +101,8 @@ static fm_status take_samples(fm_measurement *measurement, const launch_pair *pa
         status = sample_once(&ignored, measurement, pair, false, err);
         is_long = i > 0 && ignored.wall_ns > MEASURE_LONG_FRAME_NS;
     }
+    if (status == FM_OK && desc->warmup > 0)
+        status = frame_images_expect(&images, pair->method, err);
     measurement->lost = 0;
     host_load_read(&measurement->begin, "");
     for (uint32_t i = 0; i < desc->frames && status == FM_OK; i++) {
@@ -117,7 +119,7 @@ static fm_status take_samples(fm_measurement *measurement, const launch_pair *pa
     }
     host_load_read(&measurement->end, "");
     if (status == FM_OK)
-        status = frame_images_settle(&images, measurement, err);
+        status = frame_images_end(&images, measurement, err);
     frame_images_free(&images);
     measurement->is_long = is_long;
     return status;
@@ -145,8 +147,6 @@ fm_status measure_times(fm_measurement *measurement, const fm_measure_desc *desc
         status = instance_create(&method, &timed, err);
     if (status == FM_OK)
         status = take_samples(measurement, &(launch_pair){ method, floor, desc }, err);
-    if (status == FM_OK)
-        status = measure_read_image(&measurement->image, stage, err);
     if (status == FM_OK)
         measure_bytes(measurement, method, desc);
     /* What destroying it gives back: the floor may have grown beside it. */

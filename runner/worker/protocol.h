@@ -13,8 +13,10 @@
  *     "truth": "path of the truth file", "launch": 0,
  *     "check": true,                        capture and compare all fragments
  *     "image": "path to write the image to, or empty",
-     "keep_fragments": "path to write captured fragments to, or empty", "keep_truth": "truth",
-     "keep_frames": "wrong frames of a sequence" }
+ *     "range": "path, without its ending, for what its new images reach, or empty",
+ *     "known_images": ["16 hex digits"],    hashes of images that earlier launches of the case drew
+ *     "keep_fragments": "path to write captured fragments to, or empty", "keep_truth": "truth",
+ *     "keep_frames": "wrong frames of a sequence" }
  *
  * The answer is written at the end; a worker that dies leaves none:
  *   { "status": "a word of model/outcome.h", "message": "",
@@ -38,7 +40,8 @@
  *     "samples": [ { "frame": 0, "metric": "store_ms", "value": 1.25, "unit": "ms" }, ... ] }
  *
  * Names, units and meanings of metrics are in model/metrics.h. With "check" the answer has the
- * metrics that come from comparing with truth; with timers=frame it has no times of passes. A
+ * metrics that come from comparing with truth; of images that are not known each launch answers how
+ * far they are from it; with timers=frame it has no times of passes. A
  * "truth" job writes the truth file and answers status, message and the metrics of truth; a
  * "device" job only opens the device, and answers what it is. */
 /* clang-format on */
@@ -67,8 +70,11 @@ typedef struct fm_request {
     const fm_settings *settings;
     const fm_choice *choices; /* of the method's options; its first value for what is missing */
     size_t choice_count;
-    const char *truth;                 /* path of the truth file */
-    const char *image;                 /* path of the image to be written; "": none */
+    const char *truth;            /* path of the truth file */
+    const char *image;            /* path of the image to be written; "": none */
+    const char *range;            /* prefix of image/image_range.h; "" or NULL: none */
+    const uint64_t *known_images; /* [known_count]: hashes of what earlier launches drew */
+    size_t known_count;
     const char *keep[KEPT_KIND_COUNT]; /* the same for files of kept_file.h; NULL is "" */
     bool check, validation, no_timers;
     uint32_t launch;
@@ -90,10 +96,12 @@ typedef struct fm_read_request {
     fm_request request;
     fm_settings settings;
     fm_choice choices[FM_MAX_OPTIONS];
-    json_t *json; /* holds the texts */
+    uint64_t *known_images; /* owned */
+    json_t *json;           /* holds the texts */
 } fm_read_request;
 
-/* FM_IO: no such file, or no JSON. FM_INVALID: an unknown key, an illegal value, too many options.
+/* FM_IO: no such file, or no JSON. FM_INVALID: an unknown key, an illegal value, too many options;
+ * FM_NO_MEMORY.
  * request_free also after a failure. */
 fm_status request_read(fm_read_request *read, const char *path, fm_error *err);
 void request_free(fm_read_request *read);

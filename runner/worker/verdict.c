@@ -3,16 +3,16 @@
 #include <inttypes.h>
 #include <stdio.h>
 
-static bool are_fragments_wrong(fm_error *err, const fm_measurement *m)
+static bool are_fragments_wrong(fm_error *err, const fm_check *check, uint64_t lost)
 {
-    const fm_losses *excused = &m->check.excused;
-    const uint64_t missing = m->check.missing - excused->at_depth_one - excused->of_ties;
-    if (missing + m->check.extra + m->check.misordered + m->lost == 0)
+    const fm_losses *excused = &check->excused;
+    const uint64_t missing = check->missing - excused->at_depth_one - excused->of_ties;
+    if (check_faults(check) + lost == 0)
         return false;
     fm_fail(err, FM_OK,
             "declared exact, but missing %" PRIu64 ", extra %" PRIu64 ", misordered %" PRIu64
             ", lost %" PRIu64 " fragments in %" PRIu64 " pixels",
-            missing, m->check.extra, m->check.misordered, m->lost, m->check.wrong_pixels);
+            missing, check->extra, check->misordered, lost, check->wrong_pixels);
     return true;
 }
 
@@ -21,7 +21,8 @@ bool verdict_is_wrong(fm_error *err, const fm_measurement *measurement, uint32_t
     const double allowed = image_rounding(n);
     if ((traits & FM_TRAIT_EXACT) == 0)
         return false;
-    if (are_fragments_wrong(err, measurement))
+    if (are_fragments_wrong(err, &measurement->check, measurement->lost) ||
+        are_fragments_wrong(err, &measurement->worst_check, measurement->lost))
         return true;
     if (measurement->self_beyond > allowed)
         fm_fail(err, FM_OK,
@@ -29,11 +30,11 @@ bool verdict_is_wrong(fm_error *err, const fm_measurement *measurement, uint32_t
                 "allowed)",
                 measurement->self_beyond + measurement->self_bound,
                 measurement->self_bound + allowed);
-    else if (measurement->frames_max_abs > allowed)
+    else if (measurement->frames_beyond > allowed)
         fm_fail(err, FM_OK,
                 "declared exact, but the image of a timed frame is %.3g from all that truth allows "
                 "(%.2g is allowed)",
-                measurement->frames_max_abs, allowed);
+                measurement->frames_beyond, allowed);
     else if (!measurement->may_differ && (traits & FM_TRAIT_RACY) == 0 &&
              measurement->distinct_images > 1)
         fm_fail(err, FM_OK, "declared exact, but its timed frames drew %u different images",

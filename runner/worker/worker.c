@@ -278,6 +278,8 @@ static fm_status measure(launch_job *job)
                                    .frames = job->settings.frames,
                                    .warmup = job->settings.warmup,
                                    .check = job->request->check,
+                                   .known_images = job->request->known_images,
+                                   .known_count = job->request->known_count,
                                    .keep = job->request->keep[KEPT_FRAGMENTS] };
     return measure_case(&job->measurement, &desc, &job->error);
 }
@@ -351,6 +353,8 @@ static fm_status measure_job(launch_job *job)
     if (status == FM_OK)
         status = image_files_write(job->request->image, job->measurement.image,
                                    job->measurement.truth_image, &job->error);
+    if (status == FM_OK)
+        status = image_range_write(job->request->range, &job->measurement.range, &job->error);
     if (status != FM_OK)
         return status;
     add_notes(job);

@@ -13,6 +13,7 @@
 
 #include "base/random.h"
 #include "image/image_error.h"
+#include "image/image_range.h"
 
 static const double rounding = 1e-6; /* float pixels, double sums */
 
@@ -300,6 +301,74 @@ static void image_read_of_a_missing_file_is_an_io_error(void **state)
     assert_null(image);
 }
 
+static void a_range_holds_the_least_and_the_most_of_its_images(void **state)
+{
+    (void)state;
+    fm_image_range range = { NULL, NULL }, more = { NULL, NULL };
+    fm_image *images[] = { filled(2, 1, 0.5f), filled(2, 1, 0.5f), filled(2, 1, 0.5f) };
+    images[0]->rgba[0] = 0.75f;
+    images[1]->rgba[5] = 0.25f;
+    images[2]->rgba[7] = NAN;
+    assert_int_equal(image_range_add(&range, images[0], NULL), FM_OK);
+    assert_int_equal(image_range_add(&more, images[1], NULL), FM_OK);
+    assert_int_equal(image_range_add(&more, images[2], NULL), FM_OK);
+    assert_int_equal(image_range_join(&range, &more, NULL), FM_OK);
+    for (int i = 0; i < 8; i++) {
+        assert_true(range.low->rgba[i] == (i == 5 ? 0.25f : 0.5f));
+        assert_true(range.high->rgba[i] == (i == 0 ? 0.75f : i == 7 ? INFINITY : 0.5f));
+    }
+    for (int i = 0; i < 3; i++)
+        image_destroy(images[i]);
+    image_range_free(&range);
+    image_range_free(&more);
+}
+
+static void a_range_takes_in_images_of_one_size(void **state)
+{
+    (void)state;
+    fm_image_range range = { NULL, NULL };
+    fm_image *small = filled(2, 1, 0), *large = filled(2, 2, 0);
+    assert_int_equal(image_range_add(&range, small, NULL), FM_OK);
+    assert_int_equal(image_range_add(&range, large, NULL), FM_INVALID);
+    assert_int_equal(image_range_join(&range, &(fm_image_range){ NULL, NULL }, NULL), FM_OK);
+    image_destroy(small);
+    image_destroy(large);
+    image_range_free(&range);
+}
+
+static void a_range_comes_back_from_its_files_and_goes(void **state)
+{
+    (void)state;
+    char prefix[64], path[80];
+    fm_image_range range = { NULL, NULL }, read = { NULL, NULL };
+    fm_image *low = filled(3, 1, 0.25f), *high = filled(3, 1, 0.5f), *other = filled(1, 1, 0);
+    temporary_path(prefix);
+    assert_int_equal(image_range_add(&range, low, NULL), FM_OK);
+    assert_int_equal(image_range_add(&range, high, NULL), FM_OK);
+    assert_int_equal(image_range_write("", &range, NULL), FM_OK);
+    assert_int_equal(image_range_read(&read, prefix, NULL), FM_OK);
+    assert_null(read.low);
+    assert_int_equal(image_range_write(prefix, &range, NULL), FM_OK);
+    assert_int_equal(image_range_read(&read, prefix, NULL), FM_OK);
+    assert_memory_equal(read.low->rgba, low->rgba, 48);
+    assert_memory_equal(read.high->rgba, high->rgba, 48);
+    image_range_free(&read);
+    snprintf(path, sizeof path, "%s" FM_RANGE_HIGH_ENDING, prefix);
+    assert_int_equal(image_write(path, other, NULL), FM_OK);
+    assert_int_equal(image_range_read(&read, prefix, NULL), FM_INVALID);
+    image_range_free(&read);
+    assert_int_equal(image_range_write(prefix, &read, NULL), FM_OK); /* of no image */
+    assert_int_not_equal(access(path, F_OK), 0);
+    assert_int_equal(image_range_read(&read, prefix, NULL), FM_OK);
+    assert_null(read.low);
+    assert_int_equal(image_range_write("/nowhere/range", &range, NULL), FM_IO);
+    unlink(prefix);
+    image_destroy(low);
+    image_destroy(high);
+    image_destroy(other);
+    image_range_free(&range);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -316,6 +385,9 @@ int main(void)
         cmocka_unit_test(image_read_gives_back_what_was_written),
         cmocka_unit_test(image_read_rejects_damaged_files),
         cmocka_unit_test(image_read_of_a_missing_file_is_an_io_error),
+        cmocka_unit_test(a_range_holds_the_least_and_the_most_of_its_images),
+        cmocka_unit_test(a_range_takes_in_images_of_one_size),
+        cmocka_unit_test(a_range_comes_back_from_its_files_and_goes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

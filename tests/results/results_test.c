@@ -122,9 +122,10 @@ static void summary_has_the_columns_of_the_design_in_order(void **state)
         "code_program,code_driver,code_plugin,code_shaders,"
         "covered_rmse,covered_psnr_db,covered_max_abs,covered_ssim,flip_median,flip_p95,flip_max,"
         "covered_flip,covered_flip_median,covered_flip_p95,covered_flip_max,"
-        "total_rmse,total_max_abs,total_ssim,total_flip,fragments_wanted,declared_ties,declared_at_"
-        "one,"
-        "lost_ties,lost_at_one,self_max_abs,self_beyond,reason\n");
+        "total_rmse,total_max_abs,total_ssim,total_flip,fragments_wanted,declared_ties,"
+        "declared_at_one,lost_ties,lost_at_one,self_max_abs,self_beyond,"
+        "frames_drawn,frames_rmse_max,frames_max_abs,frames_total_rmse_max,captured_frames,"
+        "distinct_fragments,missing_max,reason\n");
     text_free(&header);
 }
 
@@ -156,6 +157,37 @@ static void summary_row_holds_medians_ratios_and_rates(void **state)
     assert_field(results, "clear_ms", "");
     assert_field(results, "method_version", "7");
     assert_true(results_is_finished(results, 0));
+    results_destroy(results);
+    fake_close(&fake);
+}
+
+static void add_with_error(fm_results *results, uint32_t launch, json_t *rmse)
+{
+    const double store_ms[] = { 1.0, -1 }, canary_ns[] = { 10 };
+    json_t *result = result_of(store_ms, canary_ns);
+    json_t *numbers = json_object();
+    if (rmse != NULL)
+        json_object_set_new(numbers, "frames_rmse_max", rmse);
+    json_object_set_new(result, "launch", numbers);
+    assert_int_equal(results_add(results, 0, launch, result, NULL), FM_OK);
+    json_decref(result);
+}
+
+/* A launch that drew nothing new says nothing; what is no number travels as a text. */
+static void worst_frame_is_that_of_all_launches(void **state)
+{
+    (void)state;
+    fake_plan fake;
+    fm_results *results = created(&fake, 4);
+    add_with_error(results, 0, NULL); /* of an older program */
+    assert_field(results, "frames_rmse_max", "");
+    add_with_error(results, 1, json_real(0.25));
+    add_with_error(results, 2, json_real(0.125));
+    assert_field(results, "frames_rmse_max", "0.25");
+    assert_field(results, "frames_max_abs", "");
+    assert_field(results, "frames_drawn", "3");
+    add_with_error(results, 3, json_string("inf"));
+    assert_field(results, "frames_rmse_max", "inf");
     results_destroy(results);
     fake_close(&fake);
 }
@@ -432,6 +464,7 @@ int main(void)
         cmocka_unit_test(summary_of_many_cases_waits_for_its_turn),
         cmocka_unit_test(summary_has_the_columns_of_the_design_in_order),
         cmocka_unit_test(summary_row_holds_medians_ratios_and_rates),
+        cmocka_unit_test(worst_frame_is_that_of_all_launches),
         cmocka_unit_test(every_time_and_ratio_has_an_interval_by_launches),
         cmocka_unit_test(one_launch_has_no_interval),
         cmocka_unit_test(times_floor_is_of_frames_where_they_have_one_timer),

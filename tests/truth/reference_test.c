@@ -113,6 +113,51 @@ static void tied_pixels_hang_on_how_many_are_wanted(void **state)
     assert_int_equal(truth_tied_pixels(&truth, 0), 0);
 }
 
+/* Of many frames no picture of truth is made; their errors are those of whole pictures. */
+static void the_worst_of_images_has_the_errors_of_whole_pictures(void **state)
+{
+    (void)state;
+    static const double all_stops[] = { 0, 1.5 };
+    for (size_t s = 0; s < sizeof all_stops / sizeof all_stops[0]; s++) {
+        float rgba[2][12] = { { 0.3f, 0.3f, 0, 0.64f, 1, 0.1f, 1, 1 }, { 0.7f, 0, 0, 0.7f } };
+        fm_image images[2] = { { 3, 1, rgba[0] }, { 3, 1, rgba[1] } };
+        fm_image *const both[] = { &images[0], &images[1] };
+        const reference_images compared = {
+            .truth = &truth, .wanted = 1, .images = both, .count = 2
+        };
+        fm_worst_error worst = { .max_abs = 0.5 }, expected = { .max_abs = 0.5 };
+        assert_int_equal(reference_worst(&worst, &compared, all_stops[s], NULL), FM_OK);
+        for (int i = 0; i < 2; i++) {
+            fm_reference whole;
+            fm_difference wanted, all;
+            assert_int_equal(reference_create(&whole, &truth, 1, both[i], NULL), FM_OK);
+            reference_expose(&whole, both[i], all_stops[s]);
+            image_difference(&wanted, both[i], whole.wanted, NULL);
+            image_difference(&all, both[i], whole.all, NULL);
+            expected.rmse = fmax(expected.rmse, wanted.rmse);
+            expected.max_abs = fmax(expected.max_abs, wanted.max_abs);
+            expected.total_rmse = fmax(expected.total_rmse, all.rmse);
+            reference_free(&whole);
+        }
+        assert_memory_equal(&worst, &expected, sizeof worst);
+        assert_true(worst.rmse > 0.1 && worst.total_rmse > 0.1);
+    }
+}
+
+static void an_image_that_is_no_number_is_infinitely_far(void **state)
+{
+    (void)state;
+    float rgba[12] = { NAN };
+    fm_image image = { 3, 1, rgba };
+    fm_image *const images[] = { &image };
+    const reference_images compared = {
+        .truth = &truth, .wanted = UINT32_MAX, .images = images, .count = 1
+    };
+    fm_worst_error worst = { 0, 0, 0 };
+    assert_int_equal(reference_worst(&worst, &compared, 0, NULL), FM_OK);
+    assert_true(isinf(worst.rmse) && isinf(worst.max_abs) && isinf(worst.total_rmse));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -120,6 +165,8 @@ int main(void)
         cmocka_unit_test(a_declared_loss_is_left_out_and_nothing_else),
         cmocka_unit_test(the_reference_is_the_nearest_picture),
         cmocka_unit_test(exposure_scales_colours_and_not_alpha),
+        cmocka_unit_test(the_worst_of_images_has_the_errors_of_whole_pictures),
+        cmocka_unit_test(an_image_that_is_no_number_is_infinitely_far),
         cmocka_unit_test(tied_pixels_hang_on_how_many_are_wanted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

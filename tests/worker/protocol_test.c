@@ -23,6 +23,7 @@ static void request_comes_back_as_it_was_written(void **state)
     settings_default(&settings);
     settings.k = 7;
     settings.n = 9;
+    static const uint64_t known[] = { 10, UINT64_MAX };
     const fm_request request = { .is_truth_job = true,
                                  .plugin = "a/a.so",
                                  .floor = "",
@@ -34,6 +35,9 @@ static void request_comes_back_as_it_was_written(void **state)
                                  .choice_count = 1,
                                  .truth = "t.truth",
                                  .image = "",
+                                 .range = "work/7",
+                                 .known_images = known,
+                                 .known_count = 2,
                                  .keep = { [KEPT_FRAGMENTS] = "kept/7.fragments" },
                                  .no_timers = true,
                                  .launch = 3 };
@@ -45,6 +49,9 @@ static void request_comes_back_as_it_was_written(void **state)
     assert_string_equal(read.request.plugin, "a/a.so");
     assert_string_equal(read.request.device, "vulkan:0");
     assert_int_equal(read.request.launch, 3);
+    assert_string_equal(read.request.range, "work/7");
+    assert_int_equal(read.request.known_count, 2);
+    assert_memory_equal(read.request.known_images, known, sizeof known);
     assert_string_equal(read.request.keep[KEPT_FRAGMENTS], "kept/7.fragments");
     assert_string_equal(read.request.keep[KEPT_TRUTH], "");
     assert_string_equal(read.request.keep[KEPT_FRAMES], "");
@@ -55,12 +62,15 @@ static void request_comes_back_as_it_was_written(void **state)
     unlink(path);
 }
 
-#define REQUEST(job, launch, check, settings, options)                                             \
+#define REQUEST_KNOWING(known, job, launch, check, settings, options)                              \
     "{\"job\": " job ", \"plugin\": \"\", \"floor\": \"\", \"common\": \"\", \"device\": \"\", "   \
     "\"validation\": false, \"no_timers\": false, \"feed\": \"\", \"settings\": {" settings        \
     "}, \"options\": {" options "}, \"truth\": \"\", \"launch\": " launch ", \"check\": " check    \
-    ", \"image\": \"\", \"keep_fragments\": \"\", \"keep_truth\": \"\", \"keep_frames\": "         \
+    ", \"image\": \"\", \"range\": \"\", \"known_images\": [" known                                \
+    "], \"keep_fragments\": \"\", \"keep_truth\": \"\", \"keep_frames\": "                         \
     "\"\"}"
+#define REQUEST(job, launch, check, settings, options)                                             \
+    REQUEST_KNOWING("", job, launch, check, settings, options)
 
 static fm_status read_text(const char *text, fm_error *err)
 {
@@ -94,6 +104,9 @@ static void request_read_refuses_what_is_no_request(void **state)
         { REQUEST("\"mesh\"", "0", "true", "\"colour\": \"red\"", ""), "colour" },
         { REQUEST("\"mesh\"", "0", "true", "\"k\": \"many\"", ""), "k" },
         { REQUEST("\"mesh\"", "0", "true", "", "\"layout\": 3"), "layout" },
+        { REQUEST_KNOWING("7", "\"mesh\"", "0", "true", "", ""), "known_images" },
+        { REQUEST_KNOWING("\"00000000000000AA\"", "\"mesh\"", "0", "true", "", ""),
+          "known_images" },
         { REQUEST("\"mesh\"", "0", "true", "",
                   "\"layout\": \"0123456789012345678901234567890123456789012345678901234567890"
                   "123456789012345678901234567890123456789012345678901234567890123456789\""),
