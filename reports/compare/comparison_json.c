@@ -63,9 +63,9 @@ static json_t *machines(const fm_machines *of)
 {
     json_t *list = json_array();
     for (size_t i = 0; i < of->count; i++)
-        json_array_append_new(list, json_pack("{s:s, s:o, s:o}", "what", of->differing[i].name,
-                                              "base", text(of->differing[i].base), "new",
-                                              text(of->differing[i].now)));
+        json_array_append_new(
+            list, json_pack("{s:o, s:o, s:o}", "what", text(of->differing[i].name), "base",
+                            text(of->differing[i].base), "new", text(of->differing[i].now)));
     return list;
 }
 

@@ -8,6 +8,8 @@
  *   signed_rank.h  is one side of the pairs larger? the exact test
  *   walsh.h        by how much? Hodges and Lehmann's estimate, with the interval of that test
  *   median.h       the median of the pairs' differences, its bootstrap interval, its standard error
+ *   rank_sum.h     are later values above earlier ones? the exact test of two samples
+ *   steps.h        since when?
  *   levels.h       many tests in a night, and several looks at one of them
  *   binomial.h     k of n: how often really?
  *

@@ -5,18 +5,7 @@
 #include <stdlib.h>
 
 #include "base/stats.h"
-
-/* Twice the mean rank of one that has `below` smaller ones and `equal` like it, itself too: whole
- * also where two share a rank. */
-static uint32_t doubled_rank(const double *sorted, size_t count, double value)
-{
-    size_t below = 0, equal = 0;
-    while (below < count && sorted[below] < value)
-        below++;
-    while (below + equal < count && sorted[below + equal] == value)
-        equal++;
-    return (uint32_t)(2 * below + equal + 1);
-}
+#include "ranks.h"
 
 /* chances[s], all 0 before, up to the sum of all ranks: that the ranks whose coin shows heads add
  * up to s. */

@@ -23,7 +23,7 @@ typedef struct fm_signed_rank {
  *
  * The p-values are exact, with ties and zeros too: the signs are the only chance, and the
  * distribution over all 2^count of them is added up rank by rank. All zero: p is 1. The relative
- * error is below 1e-12. 40 differences take 20 us, 1000 take 0.4 s.
+ * error is below 1e-12. 40 differences take 14 us, 1000 take 0.2 s.
  *
  * FM_INVALID as decide_check; FM_NO_MEMORY. */
 fm_status signed_rank_test(fm_signed_rank *test, const double *differences, size_t count,
