@@ -66,7 +66,13 @@ static fm_status compare_case(fm_compared *compared, const fm_comparison *of, co
         compared->ratio = (fm_interval){ NAN, NAN, NAN };
     compared->verdict = judge(&compared->why, compared, of);
     exact_code(compared->code, pair);
-    return exact_compare(&compared->changes, pair, of->base_run, of->now_run, err);
+    const fm_status status =
+        exact_compare(&compared->changes, pair, of->base_run, of->now_run, err);
+    return status == FM_OK
+               ? exact_add_image(&compared->changes, pair,
+                                 of->base_images.hashes[pair->base - of->base_run->cases],
+                                 of->now_images.hashes[pair->now - of->now_run->cases], err)
+               : status;
 }
 
 /* Smaller is worse. */
@@ -128,6 +134,10 @@ fm_status comparison_make(fm_comparison *comparison, const fm_comparison_desc *d
                                  desc->base, desc->now, err);
     if (status == FM_OK)
         status = join_cases(&comparison->pairs, desc->base, desc->now, err);
+    if (status == FM_OK)
+        status = images_read(&comparison->base_images, desc->base, err);
+    if (status == FM_OK)
+        status = images_read(&comparison->now_images, desc->now, err);
     return status == FM_OK ? compare_cases(comparison, err) : status;
 }
 
@@ -136,6 +146,9 @@ void comparison_free(fm_comparison *comparison)
     for (size_t i = 0; i < comparison->count; i++)
         exact_free(&comparison->cases[i].changes);
     free(comparison->cases);
+    quantity_free(&comparison->quantity);
+    images_free(&comparison->base_images);
+    images_free(&comparison->now_images);
     join_free(&comparison->pairs);
     machines_free(&comparison->machines);
     *comparison = (fm_comparison){ 0 };

@@ -9,6 +9,7 @@
 #define FM_COMPARISON_H
 
 #include "exact.h"
+#include "images.h"
 #include "quantity.h"
 
 /* In rising order of merit. */
@@ -43,6 +44,7 @@ typedef struct fm_comparison_desc {
 
 typedef struct fm_comparison {
     const fm_result_files *base_run, *now_run;
+    fm_images base_images, now_images;
     fm_machines machines;
     fm_quantity quantity;
     double band;
@@ -54,7 +56,8 @@ typedef struct fm_comparison {
 } fm_comparison;
 
 /* FM_INVALID: a metric or reference that is not there; FM_UNSUPPORTED: not comparable: milliseconds
- * of two machines, or no case in both; FM_NO_MEMORY. The caller frees, after a failure too. */
+ * of two machines, or no case in both; FM_IO: a journal cannot be read; FM_NO_MEMORY. The caller
+ * frees, after a failure too. */
 fm_status comparison_make(fm_comparison *comparison, const fm_comparison_desc *desc, fm_error *err);
 void comparison_free(fm_comparison *comparison);
 

@@ -113,6 +113,17 @@ fm_status exact_compare(fm_changes *changes, const fm_pair *pair, const fm_resul
     return status;
 }
 
+fm_status exact_add_image(fm_changes *changes, const fm_pair *pair, const char *base,
+                          const char *now, fm_error *err)
+{
+    const bool is_one_driver = pair->base->code_driver[0] != '\0' &&
+                               strcmp(pair->base->code_driver, pair->now->code_driver) == 0;
+    return is_one_driver && repeats(pair->base) && repeats(pair->now) && base[0] != '\0' &&
+                   now[0] != '\0'
+               ? compare_text(changes, "image", base, now, err)
+               : FM_OK;
+}
+
 void exact_free(fm_changes *changes)
 {
     free(changes->items);

@@ -25,6 +25,11 @@ typedef struct fm_changes {
  * A number that one file has no column for is not compared. FM_NO_MEMORY. The caller frees. */
 fm_status exact_compare(fm_changes *changes, const fm_pair *pair, const fm_result_files *base,
                         const fm_result_files *now, fm_error *err);
+/* Adds that the picture is another, told by its hash (images.h; "": not known). Pictures of two
+ * drivers may round otherwise, and are not compared so; nor are those of methods that need not
+ * repeat. FM_NO_MEMORY. */
+fm_status exact_add_image(fm_changes *changes, const fm_pair *pair, const char *base,
+                          const char *now, fm_error *err);
 void exact_free(fm_changes *changes);
 
 /* Which of the four hashes of code differ: "program driver plugin shaders", or a part of it; "":

@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "launches.h"
@@ -37,34 +38,45 @@ static fm_status refuse_metric(const char *name, fm_error *err)
                    name, nearest != NULL ? nearest : name_of(FM_METRIC_FRAME_MS));
 }
 
-/* Whether the run has the method; else it may be the nearest to what was asked for. */
-static bool has_method(const fm_result_files *results, const char *method, fm_text_list *names)
+static bool has_defaults(const fm_case_row *row)
 {
-    bool is_there = false;
-    for (size_t i = 0; i < results->count; i++) {
-        is_there |= strcmp(results->cases[i].method, method) == 0;
-        if (!text_list_has(names, results->cases[i].method))
-            text_list_add(names, results->cases[i].method);
-    }
-    return is_there;
+    char own[FM_OPTIONS_TEXT_BYTES], kept[FM_OPTIONS_TEXT_BYTES];
+    options_select(own, row->options, FM_OPTIONS_OWN, NULL);
+    options_drop(kept, own, row->look.defaults);
+    return kept[0] == '\0';
 }
 
-static fm_status check_method(const char *method, const fm_result_files *base,
-                              const fm_result_files *now, fm_error *err)
+static fm_status refuse_method(const char *method, const fm_result_files *run, fm_error *err)
 {
     fm_text_list names = { 0 };
-    fm_status status = FM_OK;
-    const bool in_base = has_method(base, method, &names);
-    const bool in_now = has_method(now, method, &names);
-    if (!in_base || !in_now) {
-        const char *nearest = text_nearest(method, text_list_items(&names), names.count);
-        status = fm_fail(err, FM_INVALID, "--reference %.64s: %s has no case of that method%s%s%s",
-                         method, in_base ? now->directory : base->directory,
-                         nearest != NULL ? "; the nearest is '" : "",
-                         nearest != NULL ? nearest : "", nearest != NULL ? "'" : "");
-    }
+    for (size_t i = 0; i < run->count; i++)
+        if (!text_list_has(&names, run->cases[i].method))
+            text_list_add(&names, run->cases[i].method);
+    const char *nearest = text_nearest(method, text_list_items(&names), names.count);
+    fm_fail(err, FM_INVALID, "--reference %.64s: %s has no case of that method%s%s%s", method,
+            run->directory, nearest != NULL ? "; the nearest is '" : "",
+            nearest != NULL ? nearest : "", nearest != NULL ? "'" : "");
     text_list_free(&names);
-    return status;
+    return FM_INVALID;
+}
+
+static fm_status find_references(fm_references *references, const fm_result_files *run,
+                                 const char *method, fm_error *err)
+{
+    bool is_there = false;
+    references->run = run;
+    references->rows = calloc(run->count + 1, sizeof *references->rows);
+    if (references->rows == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "no memory for %zu cases", run->count);
+    for (size_t i = 0; i < run->count; i++) {
+        const fm_case_row *row = &run->cases[i];
+        if (strcmp(row->method, method) != 0)
+            continue;
+        is_there = true;
+        if (row->is_measured && has_defaults(row))
+            references->rows[references->count++] = row;
+    }
+    return is_there ? FM_OK : refuse_method(method, run, err);
 }
 
 static fm_status choose_over(fm_quantity *quantity, const char *reference,
@@ -103,10 +115,19 @@ fm_status quantity_choose(fm_quantity *quantity, const fm_quantity_desc *desc,
             desc->metric == NULL && !(machines->is_same_machine && machines->is_same_day);
         reference = quantity->is_chosen ? "floor" : "none";
     }
-    const fm_status status = choose_over(quantity, reference, machines, err);
-    return status == FM_OK && quantity->over == FM_OVER_METHOD
-               ? check_method(quantity->method, base, now, err)
-               : status;
+    fm_status status = choose_over(quantity, reference, machines, err);
+    if (status != FM_OK || quantity->over != FM_OVER_METHOD)
+        return status;
+    status = find_references(&quantity->references[0], base, quantity->method, err);
+    return status == FM_OK ? find_references(&quantity->references[1], now, quantity->method, err)
+                           : status;
+}
+
+void quantity_free(fm_quantity *quantity)
+{
+    for (int i = 0; i < 2; i++)
+        free(quantity->references[i].rows);
+    *quantity = (fm_quantity){ 0 };
 }
 
 void quantity_title(char title[128], const fm_quantity *quantity)
@@ -125,24 +146,14 @@ static const char *floor_of(const char *metric)
                                                             : name_of(FM_METRIC_FLOOR_FRAME_MS);
 }
 
-static bool has_defaults(const fm_case_row *row)
-{
-    char own[FM_OPTIONS_TEXT_BYTES], kept[FM_OPTIONS_TEXT_BYTES];
-    options_select(own, row->options, FM_OPTIONS_OWN, NULL);
-    options_drop(kept, own, row->look.defaults);
-    return kept[0] == '\0';
-}
-
 /* NULL: the run has none. */
-static const fm_case_row *find_reference(const fm_result_files *results, const fm_case_row *row,
-                                         const char *method)
+static const fm_case_row *find_reference(const fm_quantity *quantity,
+                                         const fm_result_files *results, const fm_case_row *row)
 {
-    for (size_t i = 0; i < results->count; i++) {
-        const fm_case_row *other = &results->cases[i];
-        if (strcmp(other->method, method) == 0 && other->is_measured &&
-            workload_same(row, other, NULL) && has_defaults(other))
-            return other;
-    }
+    const fm_references *references = &quantity->references[quantity->references[0].run != results];
+    for (size_t i = 0; i < references->count; i++)
+        if (workload_same(row, references->rows[i], NULL))
+            return references->rows[i];
     return NULL;
 }
 
@@ -157,7 +168,7 @@ fm_interval quantity_of(const fm_quantity *quantity, const fm_result_files *resu
     const fm_interval own = case_interval(results, row, &quantity->metric, 1);
     if (quantity->over == FM_OVER_NOTHING)
         return own;
-    const fm_case_row *reference = find_reference(results, row, quantity->method);
+    const fm_case_row *reference = find_reference(quantity, results, row);
     if (reference == row)
         return interval_exact(1.0);
     return reference != NULL

@@ -85,6 +85,11 @@ void kit_open(kit_run *run, const kit_run_desc *desc)
     write_file(run->directory, "summary.csv", &summary);
     write_file(run->directory, "samples.csv", &samples);
     write_file(run->directory, "manifest.json", &manifest);
+    if (desc->journal != NULL) {
+        fm_text journal = { 0 };
+        text_add(&journal, "{\"event\":\"plan\"}\n%s", desc->journal);
+        write_file(run->directory, "journal.jsonl", &journal);
+    }
     if (result_files_read(&run->results, run->directory, &err) != FM_OK)
         fail_msg("%s", err.message);
 }

@@ -27,9 +27,13 @@ typedef struct kit_run_desc {
                                 others are as usual, and the id is c0, c1, ... */
     size_t row_count;
     const char *samples; /* "c0 0 frame_ms 10\n...": case, launch, metric, value of one frame */
+    const char *journal; /* lines after the first; NULL: there is no journal */
     const char *machine; /* "\"cpu\": \"x\", ..." */
     const char *started; /* "2026-01-02T..." */
 } kit_run_desc;
+
+/* rows and row_count of a desc, from an array. */
+#define ROWS(array) .rows = (array), .row_count = sizeof(array) / sizeof(array)[0]
 
 void kit_open(kit_run *run, const kit_run_desc *desc);
 void kit_close(kit_run *run);
