@@ -25,7 +25,7 @@ enum { KEY_CSV = 512, KEY_HTML, KEY_JSON };
 static void take_band(compare_arguments *given, const char *text, struct argp_state *state)
 {
     char number[32];
-    double percent;
+    double percent = 0.0;
     const size_t length = strlen(text);
     const bool has_sign = length > 0 && text[length - 1] == '%';
     snprintf(number, sizeof number, "%.*s", (int)(length - has_sign), text);

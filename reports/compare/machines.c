@@ -78,6 +78,16 @@ static void add_devices(fm_machines *machines, const fm_provenance *base, const 
     }
 }
 
+/* Of "2026-01-31T12:00:00Z": known, and the same up to the T. */
+static bool is_same_day(const char *base, const char *now)
+{
+    enum { DAY_BYTES = sizeof "2026-01-31" };
+    char a[DAY_BYTES], b[DAY_BYTES];
+    snprintf(a, sizeof a, "%.10s", base);
+    snprintf(b, sizeof b, "%.10s", now);
+    return a[0] != '\0' && strcmp(a, b) == 0;
+}
+
 fm_status machines_compare(fm_machines *machines, const fm_provenance *base,
                            const fm_provenance *now, fm_error *err)
 {
@@ -101,9 +111,8 @@ fm_status machines_compare(fm_machines *machines, const fm_provenance *base,
     for (size_t i = 0; i < FACTS; i++)
         add(machines, "", facts[i], provenance_fact(base, facts[i]),
             provenance_fact(now, facts[i]));
-    const char *day = provenance_fact(base, "started");
     machines->is_same_day =
-        strlen(day) >= 10 && strncmp(day, provenance_fact(now, "started"), 10) == 0;
+        is_same_day(provenance_fact(base, "started"), provenance_fact(now, "started"));
     return FM_OK;
 }
 

@@ -65,8 +65,8 @@ static fm_status find_references(fm_references *references, const fm_result_file
 {
     bool is_there = false;
     references->run = run;
-    references->rows = calloc(run->count + 1, sizeof *references->rows);
-    if (references->rows == NULL)
+    references->cases = calloc(run->count + 1, sizeof *references->cases);
+    if (references->cases == NULL)
         return fm_fail(err, FM_NO_MEMORY, "no memory for %zu cases", run->count);
     for (size_t i = 0; i < run->count; i++) {
         const fm_case_row *row = &run->cases[i];
@@ -74,7 +74,7 @@ static fm_status find_references(fm_references *references, const fm_result_file
             continue;
         is_there = true;
         if (row->is_measured && has_defaults(row))
-            references->rows[references->count++] = row;
+            references->cases[references->count++] = i;
     }
     return is_there ? FM_OK : refuse_method(method, run, err);
 }
@@ -126,7 +126,7 @@ fm_status quantity_choose(fm_quantity *quantity, const fm_quantity_desc *desc,
 void quantity_free(fm_quantity *quantity)
 {
     for (int i = 0; i < 2; i++)
-        free(quantity->references[i].rows);
+        free(quantity->references[i].cases);
     *quantity = (fm_quantity){ 0 };
 }
 
@@ -152,8 +152,8 @@ static const fm_case_row *find_reference(const fm_quantity *quantity,
 {
     const fm_references *references = &quantity->references[quantity->references[0].run != results];
     for (size_t i = 0; i < references->count; i++)
-        if (workload_same(row, references->rows[i], NULL))
-            return references->rows[i];
+        if (workload_same(row, &results->cases[references->cases[i]], NULL))
+            return &results->cases[references->cases[i]];
     return NULL;
 }
 

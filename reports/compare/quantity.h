@@ -15,7 +15,7 @@ typedef enum fm_quantity_over {
 /* The cases of one run that others are taken over: measured, with all options at their defaults. */
 typedef struct fm_references {
     const fm_result_files *run;
-    const fm_case_row **rows; /* [count]; owned */
+    size_t *cases; /* [count]: their numbers in run->cases; owned */
     size_t count;
 } fm_references;
 

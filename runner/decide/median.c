@@ -44,7 +44,8 @@ static void add_middle(outcomes *all, const double *sorted, size_t n)
  * values; two such factors are a chance, and neither overflows. */
 static void fill_half_draws(double *factors, size_t n)
 {
-    const double half = (double)(n / 2);
+    const size_t draws = n / 2;
+    const double half = (double)draws;
     const double ways = 0.5 * (lgamma((double)n + 1.0) - 2.0 * lgamma(half + 1.0));
     factors[0] = 0.0;
     for (size_t i = 1; i <= n; i++)

@@ -85,7 +85,7 @@ static void lines_name_the_cases_and_sum_up(void **state)
         "status ok -> crash",
         "only in BASE  a, k 3, n 16",
         "only in NEW  a, k 4, n 16",
-        "2 cases: 1 slower, 0 unclear, 0 same, 0 faster, 1 untimed; status, memory, fragments and "
+        "2 cases: 1 slower, 0 unclear, 0 same, 0 faster, 1 untimed; status, memory, fragments and",
         "errors: 1 equal, 1 changed; 1 only in BASE, 1 only in NEW\n",
     };
     kit_comparison kit;

@@ -334,7 +334,7 @@ static void equal_runs_are_same_or_unclear(void **state)
     for (size_t round = 0; round < sizeof counts / sizeof counts[0]; round++) {
         const size_t launches = counts[round];
         kit_comparison kit;
-        for (size_t i = 0; i < 2 * MANY; i++) {
+        for (size_t i = 0; i < (size_t)2 * MANY; i++) {
             draw_row(cells[i / MANY][i % MANY], &noise, i % MANY, launches, &seed);
             rows[i / MANY][i % MANY] = cells[i / MANY][i % MANY];
         }
