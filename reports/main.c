@@ -7,6 +7,7 @@
 
 #include "base/data.h"
 #include "claims/verdicts.h"
+#include "compare_command.h"
 #include "error_command.h"
 #include "model/exit_code.h"
 #include "page/report.h"
@@ -271,7 +272,8 @@ int main(int argc, char **argv)
                "  fragmark-report out/kplus-05\n"
                "  fragmark-report out/mine --figure kplus-05\n"
                "  fragmark-report out/mine --figure my-figure.yml\n"
-               "  fragmark-report error IMAGE REFERENCE   (its own --help tells more)\n\n"
+               "  fragmark-report error IMAGE REFERENCE   (its own --help tells more)\n"
+               "  fragmark-report compare BASE NEW        (the same)\n\n"
                "Exit status: 0 done, 1 a claim that its figure declares required fails, 2 wrong "
                "use: a figure or reference that is named and not there, or a bad figure file, "
                "5 the report cannot be written, or was drawn of results that lack something, which "
@@ -281,10 +283,14 @@ int main(int argc, char **argv)
     };
     arguments given = { .error = error_kind_find(NULL, NULL) };
     fm_error err = { 0 };
-    char title[] = "fragmark error";
+    char error_title[] = "fragmark error", compare_title[] = "fragmark compare";
     if (argc > 1 && strcmp(argv[1], "error") == 0) {
-        argv[1] = title;
+        argv[1] = error_title;
         return error_main(argc - 1, argv + 1);
+    }
+    if (argc > 1 && strcmp(argv[1], "compare") == 0) {
+        argv[1] = compare_title;
+        return compare_main(argc - 1, argv + 1);
     }
     argp_err_exit_status = FM_EXIT_USAGE;
     argp_parse(&argp, argc, argv, 0, NULL, &given);

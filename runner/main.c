@@ -29,6 +29,8 @@ static const struct {
     { "bundle", "fragmark bundle", cli_bundle,
       "a folder with all that measuring needs, for a machine without packages" },
     { "error", "fragmark error", cli_error, "how far two image files are apart" },
+    { "compare", "fragmark compare", cli_compare,
+      "two runs, case by case: ratios, and what changed" },
     { "report", "fragmark report", cli_report, "charts and report.html again from the CSV" },
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };

@@ -72,19 +72,24 @@ static void add_trust(fm_text *page, const fm_result_files *results)
                  single, timed);
 }
 
+void page_open(fm_text *page, const char *title, size_t missing_count)
+{
+    text_add(
+        page,
+        "<!doctype html>\n<html lang=en><head><meta charset=utf-8>\n"
+        "<meta name=viewport content=\"width=device-width, initial-scale=1\">\n" FM_PUBLISH_MARK
+        "%zu>\n"
+        "<title>%s</title>\n<style>\n%s</style></head><body>\n",
+        missing_count, title, page_css);
+}
+
 void page_begin(fm_text *page, const fm_result_files *results)
 {
     const fm_provenance *manifest = results->manifest;
     const size_t ok = count_outcome(results, FM_CASE_OK);
     const size_t not_supported = count_outcome(results, FM_CASE_NOT_SUPPORTED);
     const size_t wrong_image = count_outcome(results, FM_CASE_WRONG_IMAGE);
-    text_add(
-        page,
-        "<!doctype html>\n<html lang=en><head><meta charset=utf-8>\n"
-        "<meta name=viewport content=\"width=device-width, initial-scale=1\">\n" FM_PUBLISH_MARK
-        "%zu>\n"
-        "<title>fragmark report</title>\n<style>\n%s</style></head><body>\n",
-        results->missing.count, page_css);
+    page_open(page, "fragmark report", results->missing.count);
     text_add(page,
              "<h1>fragmark report</h1>\n<p class=faint>%zu cases: %zu ok, %zu not supported, "
              "%zu with a wrong image, %zu that failed or were skipped.</p>\n",

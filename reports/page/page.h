@@ -6,7 +6,9 @@
 #include "base/text.h"
 #include "read/result_files.h"
 
-/* From <!doctype> to the title, what, where and when. */
+/* From <!doctype> to <body>, with the styles. missing_count: of the results (publish.h). */
+void page_open(fm_text *page, const char *title, size_t missing_count);
+/* page_open, and on to the title, what, where and when. */
 void page_begin(fm_text *page, const fm_result_files *results);
 /* Links to the parts; papers: ids of those that have a part. */
 void page_add_links(fm_text *page, const fm_text_list *papers);

@@ -21,10 +21,10 @@ static const size_t fact_at[FM_FACT_COUNT] = {
     [FM_FACT_SCENE] = offsetof(fm_case_row, scene),
     [FM_FACT_OPTIONS] = offsetof(fm_case_row, options),
     [FM_FACT_NOISY] = offsetof(fm_case_row, noisy),
-    [FM_FACT_CODE_PROGRAM] = SIZE_MAX,
-    [FM_FACT_CODE_DRIVER] = SIZE_MAX,
-    [FM_FACT_CODE_PLUGIN] = SIZE_MAX,
-    [FM_FACT_CODE_SHADERS] = SIZE_MAX,
+    [FM_FACT_CODE_PROGRAM] = offsetof(fm_case_row, code_program),
+    [FM_FACT_CODE_DRIVER] = offsetof(fm_case_row, code_driver),
+    [FM_FACT_CODE_PLUGIN] = offsetof(fm_case_row, code_plugin),
+    [FM_FACT_CODE_SHADERS] = offsetof(fm_case_row, code_shaders),
     [FM_FACT_REASON] = offsetof(fm_case_row, reason),
 };
 

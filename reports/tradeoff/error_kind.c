@@ -31,6 +31,14 @@ const fm_error_kind *error_kind_find(const char *name, const char **nearest)
     return NULL;
 }
 
+const fm_error_kind *error_kind_by_metric(fm_metric metric)
+{
+    for (int i = 0; i < KINDS; i++)
+        if (kinds[i].metric == metric)
+            return &kinds[i];
+    return NULL;
+}
+
 double error_kind_of(const fm_error_kind *kind, const fm_case_row *result)
 {
     const double value = result->metric[kind->metric];

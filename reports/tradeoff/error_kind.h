@@ -14,6 +14,9 @@ typedef struct fm_error_kind {
  * default. Returns NULL if there is none, with the nearest in *nearest. */
 const fm_error_kind *error_kind_find(const char *name, const char **nearest);
 
+/* The kind of that metric; NULL: it is no error that is held against time. */
+const fm_error_kind *error_kind_by_metric(fm_metric metric);
+
 /* A case's error, 0 where it is exact; of a similarity (ssim) what is missing to 1. NAN: none. */
 double error_kind_of(const fm_error_kind *kind, const fm_case_row *result);
 

@@ -14,11 +14,17 @@ static int compare_doubles(const void *left, const void *right)
     return (a > b) - (a < b);
 }
 
+void stats_sort(double *values, size_t count)
+{
+    if (count > 0) /* qsort may be handed no NULL */
+        qsort(values, count, sizeof *values, compare_doubles);
+}
+
 double stats_median(double *values, size_t count)
 {
     if (count == 0)
         return NAN;
-    qsort(values, count, sizeof *values, compare_doubles);
+    stats_sort(values, count);
     const size_t middle = count / 2;
     return count % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }

@@ -15,7 +15,11 @@ typedef struct fm_interval {
     double median, low, high;
 } fm_interval;
 
-/* Median of values, which are reordered; NAN for none. Even counts: the mean of the middle two. */
+/* Rising; NAN last. */
+void stats_sort(double *values, size_t count);
+
+/* Median of values, which are then sorted; NAN for none. Even counts: the mean of the middle two.
+ */
 double stats_median(double *values, size_t count);
 
 fm_interval interval_exact(double value);

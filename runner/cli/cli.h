@@ -34,7 +34,8 @@ enum {
     "4 some cases failed (crash, timeout, out of memory, refused plugin, wrong image of an exact " \
     "method); 5 incomplete: a full disk, a missing driver, a limit or somebody's kill stopped "    \
     "the run, and the same command continues it, or the report cannot be drawn, or lacks "         \
-    "something; 7 other code (program, driver, plugin or shaders) than rows were begun with; "     \
+    "something; 7 other code (program, driver, plugin or shaders) than rows were begun with, or "  \
+    "runs that do not compare; "                                                                   \
     "8 damaged or foreign file; 129, 130, 143 interrupted: the same command continues it."
 
 /* What main.c hands to every subcommand. */
@@ -46,7 +47,7 @@ typedef struct fm_cli {
 /* One subcommand; argv[0] is "fragmark NAME". Returns the exit code. */
 typedef int fm_command(const fm_cli *cli, int argc, char **argv);
 fm_command cli_list, cli_doctor, cli_plan, cli_run, cli_reproduce, cli_record, cli_report,
-    cli_bundle, cli_error;
+    cli_bundle, cli_error, cli_compare;
 
 /* Says what went wrong before anything was run, and returns the exit code for it: CLI_USAGE where
  * the arguments, or files that they name, are to blame. */

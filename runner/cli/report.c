@@ -198,8 +198,8 @@ int cli_report(const fm_cli *cli, int argc, char **argv)
     return code < 0 ? CLI_NOTHING : code;
 }
 
-/* The other program has the libraries that read images; its options are its own. */
-int cli_error(const fm_cli *cli, int argc, char **argv)
+/* A command of the other program, whose options are its own. */
+static int pass_on(const fm_cli *cli, const char *command, int argc, char **argv)
 {
     char program[FM_PATH_MAX_BYTES];
     if (!report_find(program)) {
@@ -210,7 +210,7 @@ int cli_error(const fm_cli *cli, int argc, char **argv)
     if (passed == NULL)
         return CLI_NOTHING;
     passed[0] = program;
-    passed[1] = "error";
+    passed[1] = command;
     for (int i = 1; i < argc; i++)
         passed[i + 1] = argv[i];
     const int code = execute(passed);
@@ -218,4 +218,14 @@ int cli_error(const fm_cli *cli, int argc, char **argv)
     if (code < 0)
         fprintf(cli->talk, "fragmark: %s cannot be executed\n", program);
     return code < 0 ? CLI_NOTHING : code;
+}
+
+int cli_error(const fm_cli *cli, int argc, char **argv)
+{
+    return pass_on(cli, "error", argc, argv);
+}
+
+int cli_compare(const fm_cli *cli, int argc, char **argv)
+{
+    return pass_on(cli, "compare", argc, argv);
 }

@@ -184,7 +184,7 @@ fm_case_status answer_status(const json_t *answer)
 fm_reason answer_reason(const json_t *answer)
 {
     fm_reason reason = FM_REASON_NONE;
-    case_reason_parse(&reason, text_in(answer, "reason"), NULL);
+    case_reason_parse(&reason, json_text_in(answer, "reason"), NULL);
     return reason;
 }
 

@@ -1,0 +1,150 @@
+#include "exact.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "read/case_metrics.h"
+#include "tradeoff/error_kind.h"
+
+static fm_change *add(fm_changes *changes, const char *name)
+{
+    if (changes->count == changes->capacity) {
+        const size_t more = changes->capacity == 0 ? 4 : 2 * changes->capacity;
+        fm_change *grown = reallocarray(changes->items, more, sizeof *grown);
+        if (grown == NULL)
+            return NULL;
+        changes->items = grown;
+        changes->capacity = more;
+    }
+    fm_change *change = &changes->items[changes->count++];
+    *change = (fm_change){ .name = name };
+    return change;
+}
+
+static fm_status compare_text(fm_changes *changes, const char *name, const char *base,
+                              const char *now, fm_error *err)
+{
+    if (strcmp(base, now) == 0)
+        return FM_OK;
+    fm_change *change = add(changes, name);
+    if (change == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "no memory for %zu changes", changes->count);
+    snprintf(change->base, sizeof change->base, "%.63s", base);
+    snprintf(change->now, sizeof change->now, "%.63s", now);
+    return FM_OK;
+}
+
+static void write_number(char text[FM_CHANGE_TEXT_BYTES], double value)
+{
+    snprintf(text, FM_CHANGE_TEXT_BYTES, "%.15g", value);
+}
+
+static fm_status compare_number(fm_changes *changes, const char *name, double base, double now,
+                                fm_error *err)
+{
+    if (isnan(base) || isnan(now) || base == now)
+        return FM_OK;
+    fm_change *change = add(changes, name);
+    if (change == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "no memory for %zu changes", changes->count);
+    write_number(change->base, base);
+    write_number(change->now, now);
+    return FM_OK;
+}
+
+/* Numbers that do not hang on how fragments raced. */
+static bool is_of_scene_or_memory(fm_metric metric)
+{
+    return fm_metrics[metric].range == FM_RANGE_BYTES || metric == FM_METRIC_N ||
+           metric == FM_METRIC_FRAGMENTS_GENERATED || metric == FM_METRIC_NONEMPTY_PIXELS ||
+           metric == FM_METRIC_TRUTH_DIGEST;
+}
+
+static bool repeats(const fm_case_row *row)
+{
+    return !row->look.is_racy && !(row->metric[FM_METRIC_DISTINCT_IMAGES] > 1);
+}
+
+/* The error of an image that is told with its rounding; others follow from these. */
+static fm_status compare_error(fm_changes *changes, const fm_error_kind *kind, const fm_pair *pair,
+                               fm_error *err)
+{
+    const double base = error_kind_of(kind, pair->base), now = error_kind_of(kind, pair->now);
+    return fabs(base - now) <= kind->exact_below
+               ? FM_OK
+               : compare_number(changes, fm_metrics[kind->metric].name,
+                                pair->base->metric[kind->metric], pair->now->metric[kind->metric],
+                                err);
+}
+
+static fm_status compare_metric(fm_changes *changes, fm_metric metric, const fm_pair *pair,
+                                const fm_result_files *base, const fm_result_files *now,
+                                fm_error *err)
+{
+    const fm_metric_info *info = &fm_metrics[metric];
+    const fm_error_kind *kind = error_kind_by_metric(metric);
+    const bool is_number = info->range != FM_RANGE_ERROR && info->range != FM_RANGE_LEVEL;
+    if (info->of != FM_OF_CASE || info->is_measured || (!is_number && kind == NULL) ||
+        (!is_of_scene_or_memory(metric) && !(repeats(pair->base) && repeats(pair->now))))
+        return FM_OK;
+    if (kind != NULL)
+        return compare_error(changes, kind, pair, err);
+    return compare_number(changes, info->name, case_metric(base, pair->base, info->name),
+                          case_metric(now, pair->now, info->name), err);
+}
+
+fm_status exact_compare(fm_changes *changes, const fm_pair *pair, const fm_result_files *base,
+                        const fm_result_files *now, fm_error *err)
+{
+    *changes = (fm_changes){ 0 };
+    fm_status status = compare_text(changes, "status", pair->base->status, pair->now->status, err);
+    if (status == FM_OK)
+        status = compare_text(changes, "method_version", pair->base->method_version,
+                              pair->now->method_version, err);
+    if (status == FM_OK)
+        status = compare_text(changes, "options", pair->base->options, pair->now->options, err);
+    const bool is_measured = pair->base->is_measured && pair->now->is_measured;
+    for (int i = 0; i < FM_METRIC_COUNT && status == FM_OK && is_measured; i++)
+        status = compare_metric(changes, (fm_metric)i, pair, base, now, err);
+    if (status != FM_OK)
+        exact_free(changes);
+    return status;
+}
+
+fm_status exact_add_image(fm_changes *changes, const fm_pair *pair, const char *base,
+                          const char *now, fm_error *err)
+{
+    const bool is_one_driver = pair->base->code_driver[0] != '\0' &&
+                               strcmp(pair->base->code_driver, pair->now->code_driver) == 0;
+    return is_one_driver && repeats(pair->base) && repeats(pair->now) && base[0] != '\0' &&
+                   now[0] != '\0'
+               ? compare_text(changes, "image", base, now, err)
+               : FM_OK;
+}
+
+void exact_free(fm_changes *changes)
+{
+    free(changes->items);
+    *changes = (fm_changes){ 0 };
+}
+
+void exact_code(char differing[FM_CODE_TEXT_BYTES], const fm_pair *pair)
+{
+    const struct {
+        const char *word, *base, *now;
+    } codes[] = {
+        { "program", pair->base->code_program, pair->now->code_program },
+        { "driver", pair->base->code_driver, pair->now->code_driver },
+        { "plugin", pair->base->code_plugin, pair->now->code_plugin },
+        { "shaders", pair->base->code_shaders, pair->now->code_shaders },
+    };
+    size_t used = 0;
+    differing[0] = '\0';
+    for (size_t i = 0; i < sizeof codes / sizeof codes[0]; i++)
+        if (codes[i].base[0] != '\0' && codes[i].now[0] != '\0' &&
+            strcmp(codes[i].base, codes[i].now) != 0)
+            used += (size_t)snprintf(differing + used, FM_CODE_TEXT_BYTES - used, "%s%s",
+                                     used > 0 ? " " : "", codes[i].word);
+}
