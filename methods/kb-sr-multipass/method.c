@@ -9,7 +9,7 @@ const fm_method_desc fm_method = {
                 "Bavoil, Myers 2008, Deferred Rendering using a Stencil Routed K-Buffer, ShaderX6",
     .version = "1",
     .traits = FM_TRAIT_BOUNDED | FM_TRAIT_SORTED_INPUT | FM_TRAIT_SORTS_IN_RESOLVE |
-              FM_TRAIT_LOSES_TIES | FM_TRAIT_MULTISAMPLED,
+              FM_TRAIT_PASSES_LOSE_TIES | FM_TRAIT_MULTISAMPLED,
     .feeds = FM_FEED_RASTER,
     .keeps = FM_KEEPS_K_NEAREST,
     .family = FM_FAMILY_K_BUFFER,

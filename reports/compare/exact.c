@@ -64,7 +64,7 @@ static bool is_of_scene_or_memory(fm_metric metric)
 
 static bool repeats(const fm_case_row *row)
 {
-    return !row->look.is_racy && !(row->metric[FM_METRIC_DISTINCT_IMAGES] > 1);
+    return (row->look.traits & FM_TRAIT_RACY) == 0 && !(row->metric[FM_METRIC_DISTINCT_IMAGES] > 1);
 }
 
 /* The error of an image that is told with its rounding; others follow from these. */

@@ -13,10 +13,14 @@ static double number_of(const fm_stability_cell *cell, fm_metric metric)
     return cell->row->metric[metric];
 }
 
-/* What a cell shows of a wrong case: the share of fragments that are missing, or what else is
- * wrong. */
-static void add_size(fm_text *page, const fm_blame *blame)
+/* What a cell shows of a wrong case: of an approximation its error; else the share of fragments
+ * that are missing, or what else is wrong. */
+static void add_size(fm_text *page, const fm_blame *blame, double rmse)
 {
+    if ((blame->traits & FM_TRAIT_APPROXIMATE) != 0) {
+        text_add(page, "%.2g", rmse);
+        return;
+    }
     if ((blame->wrong & FM_WRONG_MISSING) != 0)
         text_add(page, blame->missing_share < 0.01 ? "&lt;1" : "%.0f", 100 * blame->missing_share);
     for (unsigned bit = 1; (blame->wrong & FM_WRONG_MISSING) == 0 && wrong_name(bit) != NULL; bit++)
@@ -26,8 +30,9 @@ static void add_size(fm_text *page, const fm_blame *blame)
         }
 }
 
-static void add_mark(fm_text *page, const fm_blame *blame)
+static void add_mark(fm_text *page, const fm_stability_cell *cell)
 {
+    const fm_blame *blame = &cell->blame;
     static const char *const marks[FM_STABILITY_COUNT] = {
         [FM_STABILITY_EXACT] = "=",
         [FM_STABILITY_TOLERATED] = "&asymp;",
@@ -35,7 +40,7 @@ static void add_mark(fm_text *page, const fm_blame *blame)
         [FM_STABILITY_FAILED] = "!",
     };
     if (blame->verdict == FM_STABILITY_WRONG)
-        add_size(page, blame);
+        add_size(page, blame, number_of(cell, FM_METRIC_RMSE));
     else
         text_add(page, "%s", marks[blame->verdict]);
 }
@@ -74,7 +79,7 @@ static void add_cell(fm_text *page, const fm_stability_cell *cell, const char *s
              (int)cell->blame.verdict);
     add_title(page, cell, scene);
     text_add(page, "\">");
-    add_mark(page, &cell->blame);
+    add_mark(page, cell);
     text_add(page, "</td>");
 }
 
@@ -234,7 +239,8 @@ fm_status stability_section_add(fm_writer *to)
         page,
         "<p class=faint><span class=s1>=</span> exact; <span class=s2>&asymp;</span> off by "
         "no more than rounding; <span class=s4>12</span> wrong as its traits say: %% of the "
-        "wanted fragments that are missing, or what else is wrong; <span class=s3>&ndash;"
+        "wanted fragments that are missing, or what else is wrong, of approximations the rmse; "
+        "<span class=s3>&ndash;"
         "</span> not supported; <span class=open>!</span> unexplained, or failed. A cell shows "
         "the worst case of its method and scene; point at it for numbers.</p>\n");
     for (size_t i = 0; i < matrices.count && status == FM_OK; i++)

@@ -112,7 +112,8 @@ static void excuse_losses(fm_blame *blame, const fm_case_row *row)
 {
     const double ties = count_of(row, FM_METRIC_LOST_TIES);
     const double at_one = count_of(row, FM_METRIC_LOST_AT_ONE);
-    blame->traits |= ties > 0 ? FM_TRAIT_LOSES_TIES : 0;
+    blame->traits |=
+        ties > 0 ? row->look.traits & (FM_TRAIT_LOSES_TIES | FM_TRAIT_PASSES_LOSE_TIES) : 0;
     blame->traits |= at_one > 0 ? FM_TRAIT_LOSES_DEPTH_ONE : 0;
     if (!(unexcused(row) > 0))
         blame->unexplained &= ~(uint32_t)FM_WRONG_MISSING;
@@ -126,7 +127,8 @@ static void excuse_losses(fm_blame *blame, const fm_case_row *row)
 static bool loses_too_few(const fm_case_row *row, uint32_t others)
 {
     return (others & FM_WRONG_MISSING) == 0 &&
-           (count_of(row, FM_METRIC_LOST_TIES) < count_of(row, FM_METRIC_DECLARED_TIES) ||
+           (((row->look.traits & FM_TRAIT_LOSES_TIES) != 0 &&
+             count_of(row, FM_METRIC_LOST_TIES) < count_of(row, FM_METRIC_DECLARED_TIES)) ||
             count_of(row, FM_METRIC_LOST_AT_ONE) < count_of(row, FM_METRIC_DECLARED_AT_ONE));
 }
 

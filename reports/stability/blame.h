@@ -46,6 +46,7 @@ const char *stability_name(fm_stability stability);
 /* Rules that the traits of fragmark/method.h say:
  *   loses_ties        exactly declared_ties are missing; who emits from both ends may hand over as
  *                     many of the other tied fragments instead
+ *   passes_lose_ties  as many of declared_ties as it happens
  *   loses_depth_one   exactly declared_at_one are missing
  *   racy              anything, but only where a pixel's fragments are in flight together: not in
  *                     compute-pixel, nor in raster on software, which takes one after another

@@ -13,15 +13,17 @@ typedef struct matrix_axes {
 
 static bool is_of(const fm_stability_matrix *matrix, const fm_case_row *row)
 {
-    return strcmp(matrix->device, row->device) == 0 && strcmp(matrix->feed, row->feed) == 0 &&
-           strcmp(matrix->device_name, row->device_name) == 0;
+    return strcmp(matrix->device, row->device) == 0 && strcmp(matrix->feed, row->feed) == 0;
 }
 
 static fm_stability_matrix *find_matrix(fm_stability_matrices *matrices, const fm_case_row *row)
 {
     for (size_t i = 0; i < matrices->count; i++)
-        if (is_of(&matrices->items[i], row))
+        if (is_of(&matrices->items[i], row)) {
+            if (matrices->items[i].device_name[0] == '\0') /* what never ran does not know it */
+                matrices->items[i].device_name = row->device_name;
             return &matrices->items[i];
+        }
     fm_stability_matrix *grown =
         realloc(matrices->items, (matrices->count + 1) * sizeof matrices->items[0]);
     if (grown == NULL)

@@ -17,9 +17,10 @@ _Static_assert(sizeof keeps_words / sizeof keeps_words[0] == FM_KEEPS_COUNT, "on
 /* Traits that say what a method is like; those that say what it gets wrong make up `image`. */
 static const uint32_t like_traits = FM_TRAIT_BOUNDED | FM_TRAIT_SORTS_IN_RESOLVE |
                                     FM_TRAIT_EMITS_BACK | FM_TRAIT_EMITS_EITHER | FM_TRAIT_CONTROL;
-static const uint32_t image_traits =
-    FM_TRAIT_EXACT | FM_TRAIT_APPROXIMATE | FM_TRAIT_SORTED_INPUT | FM_TRAIT_RACY |
-    FM_TRAIT_LOSES_TIES | FM_TRAIT_LOSES_DEPTH_ONE | FM_TRAIT_MULTISAMPLED | FM_TRAIT_FLOOR;
+static const uint32_t image_traits = FM_TRAIT_EXACT | FM_TRAIT_APPROXIMATE | FM_TRAIT_SORTED_INPUT |
+                                     FM_TRAIT_RACY | FM_TRAIT_LOSES_TIES |
+                                     FM_TRAIT_PASSES_LOSE_TIES | FM_TRAIT_LOSES_DEPTH_ONE |
+                                     FM_TRAIT_MULTISAMPLED | FM_TRAIT_FLOOR;
 
 /* What goes before the next word: `before` if there were none. */
 static const char *put_words(FILE *out, uint32_t traits, const char *before)

@@ -40,6 +40,7 @@ static const struct {
     { "reads_colour", "reads colours" },
     { "emits_either", "emits either way" },
     { "multisampled", "keeps samples" },
+    { "passes_lose_ties", "passes lose ties" },
 };
 enum { TRAIT_COUNT = sizeof traits / sizeof traits[0] };
 _Static_assert((1u << TRAIT_COUNT) == FM_TRAITS_ALL + 1u, "one name a trait");

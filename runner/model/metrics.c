@@ -104,7 +104,7 @@ const fm_metric_info fm_metrics[FM_METRIC_COUNT] = {
     [FM_METRIC_FRAGMENTS_WANTED] = { "fragments_wanted", "wanted", "",
         "fragments that the method was to hand over: of each pixel all, the k nearest or the nearest", CASE, WHOLE },
     [FM_METRIC_DECLARED_TIES] = { "declared_ties", "ties to lose", "",
-        "of those, what the trait loses_ties says is lost: all but one of each pixel and depth; 0 without it", CASE, WHOLE },
+        "of those, what the trait loses_ties, or passes_lose_ties, says may be lost: all but one of each pixel and depth", CASE, WHOLE },
     [FM_METRIC_DECLARED_AT_ONE] = { "declared_at_one", "to lose at 1", "",
         "the same of the trait loses_depth_one", CASE, WHOLE },
     [FM_METRIC_LOST_TIES] = { "lost_ties", "ties lost", "",

@@ -1,5 +1,7 @@
 #include "loss.h"
 
+static const uint32_t of_ties = FM_TRAIT_LOSES_TIES | FM_TRAIT_PASSES_LOSE_TIES;
+
 /* The first of the fragments, from `first` on, that is not `depth` or nearer. */
 static uint32_t run_end(const fm_fragment *fragments, uint32_t first, uint32_t count, float depth)
 {
@@ -14,7 +16,7 @@ static void add_missing(fm_losses *losses, uint32_t traits, float depth, uint32_
 {
     if ((traits & FM_TRAIT_LOSES_DEPTH_ONE) != 0 && depth >= 1.0f && depth <= 1.0f)
         losses->at_depth_one += missing;
-    else if ((traits & FM_TRAIT_LOSES_TIES) != 0)
+    else if ((traits & of_ties) != 0)
         losses->of_ties += survivors > 0 ? missing : missing - 1; /* one had to survive */
 }
 
@@ -22,7 +24,7 @@ void loss_count(fm_losses *losses, uint32_t traits, const fm_fragment *captured,
                 uint32_t captured_count, const fm_fragment *truth, uint32_t wanted)
 {
     uint32_t at = 0;
-    if ((traits & (FM_TRAIT_LOSES_DEPTH_ONE | FM_TRAIT_LOSES_TIES)) == 0)
+    if ((traits & (FM_TRAIT_LOSES_DEPTH_ONE | of_ties)) == 0)
         return;
     for (uint32_t first = 0, end; first < wanted; first = end) {
         const float depth = truth[first].depth;
@@ -39,7 +41,7 @@ bool loss_may_touch(uint32_t traits, const fm_fragment *truth, uint32_t wanted)
 {
     if ((traits & FM_TRAIT_LOSES_DEPTH_ONE) != 0 && wanted > 0 && truth[wanted - 1].depth >= 1.0f)
         return true;
-    for (uint32_t i = 1; (traits & FM_TRAIT_LOSES_TIES) != 0 && i < wanted; i++)
+    for (uint32_t i = 1; (traits & of_ties) != 0 && i < wanted; i++)
         if (truth[i].depth <= truth[i - 1].depth)
             return true;
     return false;

@@ -9,7 +9,8 @@
 /* Sums over all pixels. A missing fragment counts once at most. */
 typedef struct fm_losses {
     uint64_t at_depth_one; /* FM_TRAIT_LOSES_DEPTH_ONE: depth exactly 1.0 */
-    uint64_t of_ties;      /* FM_TRAIT_LOSES_TIES: all but one of those at one depth */
+    uint64_t
+        of_ties; /* FM_TRAIT_LOSES_TIES, _PASSES_LOSE_TIES: all but one of those at one depth */
 } fm_losses;
 
 /* One pixel: `captured` ascending by depth; `truth` ascending by depth, the `wanted` fragments that

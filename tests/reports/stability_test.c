@@ -46,7 +46,8 @@ static fm_case_row row_of(const fake *one)
         row.metric[i] = NAN;
     row.metric[FM_METRIC_N] = 12;
     row.metric[FM_METRIC_FRAGMENTS_WANTED] = WANTED;
-    row.metric[FM_METRIC_DECLARED_TIES] = (one->traits & FM_TRAIT_LOSES_TIES) != 0 ? TIES : 0;
+    row.metric[FM_METRIC_DECLARED_TIES] =
+        (one->traits & (FM_TRAIT_LOSES_TIES | FM_TRAIT_PASSES_LOSE_TIES)) != 0 ? TIES : 0;
     row.metric[FM_METRIC_DECLARED_AT_ONE] =
         (one->traits & FM_TRAIT_LOSES_DEPTH_ONE) != 0 ? AT_ONE : 0;
     row.metric[FM_METRIC_MISSING] = one->missing;
@@ -99,6 +100,12 @@ static const fake fakes[] = {
     { TURNS, .traits = FM_TRAIT_LOSES_TIES | FM_TRAIT_EMITS_BACK, .missing = TIES,
       .lost_ties = TIES, .extra = TIES + 1, .wrong = FM_WRONG_MISSING | FM_WRONG_EXTRA,
       .reasons = FM_TRAIT_LOSES_TIES, .unexplained = FM_WRONG_EXTRA },
+    { TURNS, .traits = FM_TRAIT_PASSES_LOSE_TIES },
+    { TURNS, .traits = FM_TRAIT_PASSES_LOSE_TIES, .missing = TIES - 1, .lost_ties = TIES - 1,
+      .wrong = FM_WRONG_MISSING, .reasons = FM_TRAIT_PASSES_LOSE_TIES },
+    { TURNS, .traits = FM_TRAIT_PASSES_LOSE_TIES, .missing = TIES + 1, .lost_ties = TIES,
+      .wrong = FM_WRONG_MISSING, .reasons = FM_TRAIT_PASSES_LOSE_TIES,
+      .unexplained = FM_WRONG_MISSING },
     /* which one of a tie survives may change from frame to frame, but not where they come in turn
      */
     { FLIGHT, .traits = FM_TRAIT_LOSES_TIES, .missing = TIES, .lost_ties = TIES, .self_beyond = 0.1,

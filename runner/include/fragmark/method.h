@@ -69,8 +69,10 @@ enum {
                                          the front or from the back; never with _EMITS_BACK */
     FM_TRAIT_MULTISAMPLED = 1u << 13, /* keeps fragments as samples of an image: at silhouettes and
                                          on slopes samples have others than the pixel's centre */
+    FM_TRAIT_PASSES_LOSE_TIES = 1u << 14, /* of equal depths those are lost that a pass over the
+                                             scene has no room for: the next one starts behind */
 };
-#define FM_TRAITS_ALL ((1u << 14) - 1u) /* all of the above */
+#define FM_TRAITS_ALL ((1u << 15) - 1u) /* all of the above */
 
 /* What a method needs of the device, beside what every device has. If one is missing, the case is
  * not_supported, with the reason. */
