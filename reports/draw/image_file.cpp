@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <exception>
 #include <memory>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,8 @@ template <typename Work> fm_status guard(const char *what, fm_error *err, Work w
 {
     try {
         return work();
+    } catch (const std::bad_alloc &) {
+        return fm_fail(err, FM_NO_MEMORY, "%s", what);
     } catch (const std::exception &problem) {
         return fm_fail(err, FM_IO, "%s: OpenImageIO: %s", what, problem.what());
     }

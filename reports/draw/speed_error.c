@@ -6,8 +6,7 @@
 #include <string.h>
 
 /* More points than POINTS_MOST are a cloud: the frontier alone is drawn, and the chart says so. */
-enum { LABEL_PX = 10, LABELS_MOST = 400, POINTS_MOST = 1000 };
-static const double plot_width_px = 620, plot_height_px = 400;
+enum { LABELS_MOST = 400, POINTS_MOST = 1000 };
 static const double marker_least_px = 8, marker_most_px = 19;
 static const fm_colour frontier_grey = { 205, 205, 205 };
 
@@ -196,21 +195,22 @@ static bool is_free(const fm_chart *chart, const taken_boxes *taken, const box *
  * the frontier leaves a marker to the right, intervals leave it up and down. */
 static void add_label(fm_chart *chart, taken_boxes *taken, const box *marker, const char *text)
 {
-    double width = chart_text_width_px(text, LABEL_PX), gap = 3;
+    double width = chart_text_width_px(text, SPEED_ERROR_LABEL_PX), gap = 3;
     double x = (marker->x0 + marker->x1) / 2, y = (marker->y0 + marker->y1) / 2;
     const double places[][2] = {
         { marker->x1 + gap, marker->y1 - 2 },
         { marker->x1 + gap, y - 4 },
         { marker->x0 - gap - width, y - 4 },
         { x - width / 2, marker->y1 + gap },
-        { x - width / 2, marker->y0 - gap - LABEL_PX + 1 },
+        { x - width / 2, marker->y0 - gap - SPEED_ERROR_LABEL_PX + 1 },
     };
     for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
-        box here = { places[i][0], places[i][1], places[i][0] + width, places[i][1] + LABEL_PX };
+        box here = { places[i][0], places[i][1], places[i][0] + width,
+                     places[i][1] + SPEED_ERROR_LABEL_PX };
         fm_label *label = is_free(chart, taken, &here) ? chart_add_label(chart) : NULL;
         if (label == NULL)
             continue;
-        *label = (fm_label){ .x_px = here.x0, .y_px = here.y0, .size_px = LABEL_PX };
+        *label = (fm_label){ .x_px = here.x0, .y_px = here.y0, .size_px = SPEED_ERROR_LABEL_PX };
         snprintf(label->text, sizeof label->text, "%s", text);
         taken->boxes[taken->count++] = here;
         return;
@@ -263,12 +263,13 @@ static size_t fit_axes(fm_chart *chart, const fm_group *group, const fm_error_ki
     const size_t points = collect(values, group, kind, false);
     chart->x = (fm_axis){ .scale = FM_SCALE_LOG,
                           .zero_below = kind->exact_below,
-                          .length_px = plot_width_px };
+                          .length_px = SPEED_ERROR_WIDTH_PX };
     snprintf(chart->x.title, sizeof chart->x.title, "error: %s%s",
              error->better == FM_BETTER_MORE ? "1 - " : "", error->name);
     axis_fit(&chart->x, values, points);
-    chart->y =
-        (fm_axis){ .title = "frame time [ms]", .scale = FM_SCALE_LOG, .length_px = plot_height_px };
+    chart->y = (fm_axis){ .title = "frame time [ms]",
+                          .scale = FM_SCALE_LOG,
+                          .length_px = SPEED_ERROR_HEIGHT_PX };
     axis_fit(&chart->y, values, collect(values, group, kind, true));
     return points;
 }

@@ -6,6 +6,9 @@
 #include "chart.h"
 #include "tradeoff/overall.h"
 
+/* Of both charts: the plot, and the letters of labels. */
+enum { SPEED_ERROR_WIDTH_PX = 620, SPEED_ERROR_HEIGHT_PX = 400, SPEED_ERROR_LABEL_PX = 10 };
+
 /* x: the error (log, a bin for exact pictures at the left). y: frame_ms with its interval (log).
  * Marker area: bytes_allocated. Grey: dominated (tradeoff/standing.h). Hollow: status is not ok. A
  * line of stairs joins the medians of those that are not dominated and that no faster one betters.

@@ -4,9 +4,6 @@
 
 #include "speed_error.h"
 
-static const double plot_width_px = 620, plot_height_px = 400;
-enum { LABEL_PX = 10 };
-
 static fm_status place_points(fm_place *places, const fm_overall *overall, fm_error *err)
 {
     fm_contender *contenders = calloc(overall->point_count + 1, sizeof *contenders);
@@ -61,7 +58,7 @@ static void add_label(fm_chart *chart, const fm_overall_point *point)
         return;
     *label = (fm_label){ .x_px = axis_position(&chart->x, point->error) + 8,
                          .y_px = axis_position(&chart->y, point->ratio.value) + 4,
-                         .size_px = LABEL_PX };
+                         .size_px = SPEED_ERROR_LABEL_PX };
     snprintf(label->text, sizeof label->text, "k=%.0f", point->row->k);
 }
 
@@ -72,7 +69,7 @@ static void fit_axes(fm_chart *chart, const fm_overall *overall, const fm_error_
         values[i] = overall->points[i].error;
     chart->x = (fm_axis){ .scale = FM_SCALE_LOG,
                           .zero_below = kind->exact_below,
-                          .length_px = plot_width_px };
+                          .length_px = SPEED_ERROR_WIDTH_PX };
     snprintf(chart->x.title, sizeof chart->x.title, "error: the worst of all, %s%s",
              fm_metrics[kind->metric].better == FM_BETTER_MORE ? "1 - " : "",
              fm_metrics[kind->metric].name);
@@ -84,7 +81,7 @@ static void fit_axes(fm_chart *chart, const fm_overall *overall, const fm_error_
     }
     chart->y = (fm_axis){ .title = "time over the cheapest exact one's, geometric mean",
                           .scale = FM_SCALE_LOG,
-                          .length_px = plot_height_px };
+                          .length_px = SPEED_ERROR_HEIGHT_PX };
     axis_fit(&chart->y, values, 3 * overall->point_count);
 }
 

@@ -8,6 +8,7 @@ typedef struct fm_error_kind {
     fm_metric metric;
     /* Errors up to this are rounding: the picture is exact. FLIP and the like magnify rounding. */
     double exact_below;
+    bool is_exposed; /* exposure=E scales the error, and so its rounding, by 2^E */
 } fm_error_kind;
 
 /* The kind of that name: a metric of an image's error, such as total_flip. NULL: total_rmse, the

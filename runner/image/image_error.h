@@ -65,6 +65,9 @@ fm_difference difference_of(const difference_sums *sums);
 fm_status image_difference(fm_difference *difference, const fm_image *image,
                            const fm_image *reference, fm_error *err);
 
+/* Across and down, of ssim's windows. */
+enum { SSIM_WINDOW_PX = 11 };
+
 /* Structural similarity, Wang et al. 2004 (doi:10.1109/TIP.2003.819861): windows of 11 x 11
  * weighted by a Gaussian of deviation 1.5, K1 = 0.01, K2 = 0.03, range 1, covariance divided by the
  * sum of weights; each channel by itself, then their mean. Windows lie within the image, so that a

@@ -4,7 +4,7 @@
 #include "filters.h"
 #include "image_error.h"
 
-enum { RADIUS = 5, TAPS = 2 * RADIUS + 1 };
+enum { RADIUS = SSIM_WINDOW_PX / 2, TAPS = SSIM_WINDOW_PX };
 
 /* What windows average, of the two images' values x and y. */
 enum { X, Y, XX, YY, XY, MOMENTS };

@@ -78,12 +78,14 @@ void technique_set_errors(technique_run *run)
     const double frames = run->outcome.frames;
     const double right = frames - run->outcome.wrong_frames;
     const technique_errors *sum = &run->errors;
-    const double rmse = sqrt(sum->squares / frames), ssim = (sum->ssim + right) / frames;
+    const bool has_windows =
+        run->sequence->width_px >= SSIM_WINDOW_PX && run->sequence->height_px >= SSIM_WINDOW_PX;
+    const double rmse = sqrt(sum->squares / frames);
     answer_set_number(run->metrics, FM_METRIC_RMSE, rmse);
     answer_set_number(run->metrics, FM_METRIC_PSNR_DB, rmse > 0 ? -20 * log10(rmse) : INFINITY);
     answer_set_number(run->metrics, FM_METRIC_MAX_ABS, sum->max_abs);
-    if (!isnan(ssim))
-        answer_set_number(run->metrics, FM_METRIC_SSIM, ssim);
+    if (has_windows)
+        answer_set_number(run->metrics, FM_METRIC_SSIM, (sum->ssim + right) / frames);
     answer_set_number(run->metrics, FM_METRIC_FLIP, sum->flip / frames);
     answer_set_number(run->metrics, FM_METRIC_FLIP_MAX, sum->flip_max);
     answer_set_count(run->metrics, FM_METRIC_WRONG_TILES, run->outcome.wrong_tiles);

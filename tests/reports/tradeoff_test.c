@@ -254,6 +254,24 @@ static void other_errors_may_be_chosen(void **state)
     assert_string_equal(nearest, "total_flip");
 }
 
+/* exposure=3 magnifies rounding by 8. */
+static void exact_is_as_bright_as_the_picture(void **state)
+{
+    (void)state;
+    const char *nearest = NULL;
+    const fake rounded = { "rounded", 0, 1, 1, 1, 5e-6, false, false };
+    fm_case_row row = row_of(&rounded, "layers");
+    assert_true(error_kind_of(rmse(), &row) > 0);
+    row.options = "layout=pixel exposure=3";
+    assert_true(error_kind_of(rmse(), &row) == 0);
+    row.metric[FM_METRIC_TOTAL_RMSE] = 1e-5;
+    assert_true(error_kind_of(rmse(), &row) > 0);
+    assert_true(error_kind_of(error_kind_find("total_ssim", &nearest), &row) > 0);
+    row.options = "exposure=-3";
+    row.metric[FM_METRIC_TOTAL_RMSE] = 9e-7;
+    assert_true(error_kind_of(rmse(), &row) == 0);
+}
+
 static void table_has_what_is_charted(void **state)
 {
     (void)state;
@@ -280,6 +298,7 @@ int main(void)
         cmocka_unit_test(cases_of_another_n_are_no_rivals),
         cmocka_unit_test(methods_over_two_scenes),
         cmocka_unit_test(other_errors_may_be_chosen),
+        cmocka_unit_test(exact_is_as_bright_as_the_picture),
         cmocka_unit_test(table_has_what_is_charted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
