@@ -13,12 +13,18 @@ static double number_of(const fm_stability_cell *cell, fm_metric metric)
     return cell->row->metric[metric];
 }
 
+/* Of all frames, where that is known. */
+static double worst_rmse(const fm_stability_cell *cell)
+{
+    return fmax(number_of(cell, FM_METRIC_RMSE), number_of(cell, FM_METRIC_FRAMES_RMSE_MAX));
+}
+
 /* What a cell shows of a wrong case: of an approximation its error; else the share of fragments
  * that are missing, or what else is wrong. */
 static void add_size(fm_text *page, const fm_blame *blame, double rmse)
 {
     if ((blame->traits & FM_TRAIT_APPROXIMATE) != 0) {
-        text_add(page, "%.2g", rmse);
+        text_add(page, "~%.1g", rmse);
         return;
     }
     if ((blame->wrong & FM_WRONG_MISSING) != 0)
@@ -37,10 +43,11 @@ static void add_mark(fm_text *page, const fm_stability_cell *cell)
         [FM_STABILITY_EXACT] = "=",
         [FM_STABILITY_TOLERATED] = "&asymp;",
         [FM_STABILITY_NOT_SUPPORTED] = "&ndash;",
+        [FM_STABILITY_UNKNOWN] = "?",
         [FM_STABILITY_FAILED] = "!",
     };
     if (blame->verdict == FM_STABILITY_WRONG)
-        add_size(page, blame, number_of(cell, FM_METRIC_RMSE));
+        add_size(page, blame, worst_rmse(cell));
     else
         text_add(page, "%s", marks[blame->verdict]);
 }
@@ -60,8 +67,8 @@ static void add_title(fm_text *page, const fm_stability_cell *cell, const char *
     for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++)
         if (number_of(cell, counts[i]) > 0)
             text_add(page, ", %s %.0f", fm_metrics[counts[i]].name, number_of(cell, counts[i]));
-    if (number_of(cell, FM_METRIC_RMSE) > 0)
-        text_add(page, ", rmse %.2g", number_of(cell, FM_METRIC_RMSE));
+    if (worst_rmse(cell) > 0)
+        text_add(page, ", rmse %.2g", worst_rmse(cell));
     if (words[0] != '\0')
         text_add(page, ": ");
     html_add(page, words);
@@ -107,21 +114,32 @@ static void add_matrix(fm_text *page, const fm_stability_matrix *matrix)
 typedef struct row_sums {
     size_t scenes, open;
     uint32_t traits;
-    double missing, extra, misordered, share, rmse;
-    const fm_stability_cell *worst; /* the one whose words are shown */
+    double missing, extra, misordered, share, rmse; /* of approximations rmse alone */
+    fm_text_list why; /* words of those that were not measured; owned */
+    const fm_stability_cell *first;
+    bool failed; /* no memory */
 } row_sums;
+
+static double of_kind(const fm_stability_cell *cell, uint32_t kind, fm_metric metric)
+{
+    const bool counts = (cell->blame.wrong & kind) != 0 && number_of(cell, metric) > 0;
+    return counts ? number_of(cell, metric) : 0;
+}
 
 static void sum_cell(row_sums *sums, const fm_stability_cell *cell)
 {
+    char words[BLAME_WORDS_BYTES];
     sums->scenes++;
     sums->open += cell->open > 0;
     sums->traits |= cell->blame.traits;
-    sums->missing += fmax(0, number_of(cell, FM_METRIC_MISSING)); /* fmax: NAN becomes 0 */
-    sums->extra += fmax(0, number_of(cell, FM_METRIC_EXTRA));
-    sums->misordered += fmax(0, number_of(cell, FM_METRIC_MISORDERED));
-    sums->rmse = fmax(sums->rmse, number_of(cell, FM_METRIC_RMSE));
-    if (sums->worst == NULL || cell->blame.missing_share > sums->share)
-        sums->worst = cell;
+    sums->missing += of_kind(cell, FM_WRONG_MISSING, FM_METRIC_MISSING);
+    sums->extra += of_kind(cell, FM_WRONG_EXTRA, FM_METRIC_EXTRA);
+    sums->misordered += of_kind(cell, FM_WRONG_MISORDERED, FM_METRIC_MISORDERED);
+    sums->rmse = fmax(sums->rmse, worst_rmse(cell));
+    blame_words(words, &cell->blame, cell->row);
+    sums->failed |= !text_list_has(&sums->why, words) && !text_list_add(&sums->why, words);
+    if (sums->first == NULL)
+        sums->first = cell;
     sums->share = fmax(sums->share, cell->blame.missing_share);
 }
 
@@ -139,8 +157,10 @@ static row_sums sum_row(const fm_stability_matrix *matrix, size_t method, fm_sta
 static void add_wrong_row(fm_text *page, const char *title, const row_sums *sums)
 {
     char words[BLAME_WORDS_BYTES];
-    const fm_blame all = { .verdict = FM_STABILITY_WRONG, .traits = sums->traits };
-    blame_words(words, &all, sums->worst->row);
+    const fm_blame all = { .verdict = FM_STABILITY_WRONG,
+                           .wrong = sums->first->blame.wrong,
+                           .traits = sums->traits };
+    blame_words(words, &all, sums->first->row);
     text_add(page, "<tr><td class=name>");
     html_add(page, title);
     text_add(page, "</td>");
@@ -162,7 +182,7 @@ static void add_wrong(fm_text *page, const fm_stability_matrix *matrix)
 {
     bool has_head = false;
     for (size_t method = 0; method < matrix->method_count; method++) {
-        const row_sums sums = sum_row(matrix, method, FM_STABILITY_WRONG);
+        row_sums sums = sum_row(matrix, method, FM_STABILITY_WRONG);
         if (sums.scenes == 0)
             continue;
         if (!has_head)
@@ -173,6 +193,8 @@ static void add_wrong(fm_text *page, const fm_stability_matrix *matrix)
                      "</thead><tbody>\n");
         has_head = true;
         add_wrong_row(page, matrix->methods[method]->look.title, &sums);
+        page->failed |= sums.failed;
+        text_list_free(&sums.why);
     }
     if (has_head)
         text_add(page, "</tbody></table></div>\n");
@@ -183,8 +205,7 @@ static void add_without(fm_text *page, const fm_stability_matrix *matrix, fm_sta
 {
     bool has_head = false;
     for (size_t method = 0; method < matrix->method_count; method++) {
-        const row_sums sums = sum_row(matrix, method, verdict);
-        char words[BLAME_WORDS_BYTES];
+        row_sums sums = sum_row(matrix, method, verdict);
         if (sums.scenes == 0)
             continue;
         if (!has_head)
@@ -193,16 +214,20 @@ static void add_without(fm_text *page, const fm_stability_matrix *matrix, fm_sta
                      "<th>why</th><th>the first one's message</th></tr></thead><tbody>\n",
                      stability_name(verdict));
         has_head = true;
-        blame_words(words, &sums.worst->blame, sums.worst->row);
         text_add(page, "<tr><td class=name>");
         html_add(page, matrix->methods[method]->look.title);
         text_add(page, "</td>");
         html_add_number(page, 8, (double)sums.scenes);
         text_add(page, "<td>");
-        html_add(page, words);
+        for (size_t i = 0; i < sums.why.count; i++) {
+            text_add(page, i > 0 ? ", " : "");
+            html_add(page, sums.why.items[i]);
+        }
         text_add(page, "</td><td class=message>");
-        html_add(page, sums.worst->row->message);
+        html_add(page, sums.first->row->message);
         text_add(page, "</td></tr>\n");
+        page->failed |= sums.failed;
+        text_list_free(&sums.why);
     }
     if (has_head)
         text_add(page, "</tbody></table></div>\n");
@@ -238,8 +263,8 @@ fm_status stability_section_add(fm_writer *to)
     text_add(
         page,
         "<p class=faint><span class=s1>=</span> exact; <span class=s2>&asymp;</span> off by "
-        "no more than rounding; <span class=s4>12</span> wrong as its traits say: %% of the "
-        "wanted fragments that are missing, or what else is wrong, of approximations the rmse; "
+        "no more than rounding; <span class=s5>12</span> wrong as its traits say: %% of the "
+        "wanted fragments that are missing, or what else is wrong, of approximations ~rmse; "
         "<span class=s3>&ndash;"
         "</span> not supported; <span class=open>!</span> unexplained, or failed. A cell shows "
         "the worst case of its method and scene; point at it for numbers.</p>\n");

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "options.h"
 
 /* Where the texts and keys of a row are kept; its metrics are an array. */
 static const size_t fact_at[FM_FACT_COUNT] = {
@@ -138,6 +139,7 @@ static void add_look(fm_case_row *result, const fm_provenance *manifest)
                           (is_timed || result->is_simulated);
     /* manifest.json lists devices at the end of a run: until then nothing is claimed of a GPU. */
     result->is_software = device == NULL || device->is_software;
+    result->is_device_known = device != NULL;
     if (isnan(result->metric[FM_METRIC_TOTAL_RMSE]) &&
         !(result->metric[FM_METRIC_TRUNCATION_RMSE] > 0.0))
         result->metric[FM_METRIC_TOTAL_RMSE] = result->metric[FM_METRIC_RMSE];
@@ -260,6 +262,14 @@ fm_status cases_read(fm_case_row **cases, fm_text_index *ids, const fm_table *ta
     }
     *cases = made;
     return FM_OK;
+}
+
+double case_brightness(const fm_case_row *result)
+{
+    char text[FM_OPTION_VALUE_BYTES];
+    double exposure = 0;
+    options_value(text, result->options, "exposure");
+    return text_to_double(&exposure, text) ? fmax(1, exp2(exposure)) : 1;
 }
 
 /* The number in a column that is not a key's; NULL: there is no such column. */

@@ -37,9 +37,10 @@ typedef struct fm_case_row {
     fm_method_info look;    /* of the method; its id for a title where the manifest lacks it */
     uint64_t figures;       /* bit i: figures.csv lists the case for figure_names[i] */
     bool is_ok;
-    bool is_measured;  /* has a time, and its error: ok, or wrong_image */
-    bool is_simulated; /* feed frames: counts and models, no times */
-    bool is_software;  /* the device; also where the manifest does not list it yet */
+    bool is_measured;     /* has a time, and its error: ok, or wrong_image */
+    bool is_simulated;    /* feed frames: counts and models, no times */
+    bool is_software;     /* the device; also where the manifest does not list it yet */
+    bool is_device_known; /* the manifest lists it */
 } fm_case_row;
 
 /* One row of the table each, in its order, and the place of each id. FM_INVALID, naming file, line
@@ -50,6 +51,10 @@ typedef struct fm_case_row {
  * index, after a failure too. */
 fm_status cases_read(fm_case_row **cases, fm_text_index *ids, const fm_table *table,
                      const fm_provenance *manifest, fm_error *err);
+
+/* 2^E of the case's exposure, by which it scales errors and their rounding; at least 1: dark
+ * pictures round no less. */
+double case_brightness(const fm_case_row *result);
 
 /* The number column of that name; false: there is none. */
 bool case_number(double *value, const fm_case_row *result, const char *name);

@@ -10,9 +10,11 @@
 /* In rising order of what a reader has to look at. */
 typedef enum fm_stability {
     FM_STABILITY_NONE,      /* not run, or the floor, which has no picture */
-    FM_STABILITY_EXACT,     /* all fragments right, the image within a step of a float, 2^-23 */
+    FM_STABILITY_EXACT,     /* all fragments right, the image within a step of a float, 2^-23; of a
+                               sequence all tiles right */
     FM_STABILITY_TOLERATED, /* all fragments right, the image off by no more than rounding may be */
     FM_STABILITY_NOT_SUPPORTED,
+    FM_STABILITY_UNKNOWN, /* an older run did not record what a verdict needs */
     FM_STABILITY_WRONG,
     FM_STABILITY_FAILED, /* crash, timeout, out of memory, ...: nothing is known of its errors */
     FM_STABILITY_COUNT
@@ -25,7 +27,8 @@ enum {
     FM_WRONG_MISORDERED = 1u << 2, /* neighbours came in the wrong order */
     FM_WRONG_LOST = 1u << 3,       /* the method itself says that it lost some */
     FM_WRONG_IMAGE = 1u << 4,      /* the image is not that of the fragments handed over */
-    FM_WRONG_UNSTABLE = 1u << 5,   /* timed frames differ where no ties allow it */
+    FM_WRONG_UNSTABLE = 1u << 5,   /* frames differ where no ties allow it, or some frame is worse
+                                      than the one that errors are of */
     FM_WRONG_TILES = 1u << 6,      /* a sequence's tiles are not the baseline's */
 };
 enum { FM_WRONG_COUNT = 7, BLAME_WORDS_BYTES = 160 };
@@ -43,21 +46,22 @@ typedef struct fm_blame {
 /* "exact", "within tolerance", ... */
 const char *stability_name(fm_stability stability);
 
-/* Rules that the traits of fragmark/method.h say:
+/* Rules that the traits of fragmark/method.h say. Fragments of a pixel may be in flight together
+ * but on compute-pixel, and on raster of a device that is known to be software. Layers are flat but
+ * for depths=sloped; meshes are not.
  *   loses_ties        exactly declared_ties are missing; who emits from both ends may hand over as
- *                     many of the other tied fragments instead
- *   passes_lose_ties  as many of declared_ties as it happens
+ *                     many of the other tied fragments instead. Which one survives, and so the
+ *                     image, may change where ties differ in colour and are in flight together
+ *   passes_lose_ties  up to declared_ties are missing
  *   loses_depth_one   exactly declared_at_one are missing
- *   racy              anything, but only where a pixel's fragments are in flight together: not in
- *                     compute-pixel, nor in raster on software, which takes one after another
- *   sorted_input      any may be missing, but not of layers that arrive front to back, as none do
- *                     where a pixel's are in flight together
- *   multisampled      missing and extra ones
- *   approximate       anything
- * Frames may differ, from each other and from the checked one, only where a pixel's fragments are
- * in flight together, and a method races, takes what comes first, or keeps any one of a tie. Where
- * another trait allows missing ones, too, fewer ties may be lost than are declared. A case that
- * failed is unexplained, too. */
+ *   racy              all but tiles, where fragments are in flight together
+ *   sorted_input      any may be missing, but not of flat layers that arrive in turn and front to
+ *                     back; image and frames may vary where fragments are in flight together
+ *   multisampled      missing and extra ones, but not of flat layers
+ *   approximate       another image; its fragments are not compared, for it merges or weighs them
+ * Where another trait allows missing ones, too, fewer may be lost than are declared. Of sequences,
+ * wrong tiles are explained if the technique is not declared exact. How many a race, the order of
+ * arrival, samples or an approximation cost, no trait says. A case that failed is unexplained. */
 fm_blame blame_case(const fm_case_row *row);
 /* Nobody said that this happens. */
 bool blame_is_open(const fm_blame *blame);

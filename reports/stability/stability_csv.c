@@ -21,8 +21,12 @@ static const fm_metric numbers[] = {
     FM_METRIC_SELF_BEYOND,
     FM_METRIC_TIED_PIXELS,
     FM_METRIC_DISTINCT_IMAGES,
+    FM_METRIC_MISSING_MAX,
+    FM_METRIC_DISTINCT_FRAGMENTS,
+    FM_METRIC_FRAMES_RMSE_MAX,
     FM_METRIC_WRONG_TILES,
     FM_METRIC_RMSE,
+    FM_METRIC_MAX_ABS,
 };
 enum { NUMBER_COUNT = sizeof numbers / sizeof numbers[0], LIST_BYTES = 256 };
 
@@ -54,7 +58,7 @@ static void add_case(fm_text *csv, const fm_case_row *row)
     add_text(csv, row->id);
     add_text(csv, row->device);
     add_text(csv, row->device_name);
-    add_text(csv, row->is_software ? "1" : "0");
+    add_text(csv, !row->is_device_known ? "" : row->is_software ? "1" : "0");
     add_text(csv, row->feed);
     add_text(csv, row->scene);
     add_text(csv, row->order);

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "read/options.h"
 
 static const fm_error_kind kinds[] = {
     { FM_METRIC_TOTAL_RMSE, 1e-6, true },    { FM_METRIC_TOTAL_MAX_ABS, 1e-5, true },
@@ -40,19 +39,10 @@ const fm_error_kind *error_kind_by_metric(fm_metric metric)
     return NULL;
 }
 
-/* 2^E of the case's exposure, at least 1: dark pictures round no less than bright ones. */
-static double exposure_of(const fm_case_row *result)
-{
-    char text[FM_OPTION_VALUE_BYTES];
-    double exposure = 0;
-    options_value(text, result->options, "exposure");
-    return text_to_double(&exposure, text) ? fmax(1, exp2(exposure)) : 1;
-}
-
 double error_kind_of(const fm_error_kind *kind, const fm_case_row *result)
 {
     const double value = result->metric[kind->metric];
     const double error = fm_metrics[kind->metric].better == FM_BETTER_MORE ? 1 - value : value;
-    const double rounding = kind->exact_below * (kind->is_exposed ? exposure_of(result) : 1);
+    const double rounding = kind->exact_below * (kind->is_exposed ? case_brightness(result) : 1);
     return error <= rounding ? 0.0 : error;
 }

@@ -20,6 +20,9 @@ typedef struct fake {
     const char *order;
     uint32_t traits;
     double missing, extra, misordered, lost, lost_ties, lost_at_one, self_beyond, images, tied;
+    double missing_max, sets, worst_frame, off_truth; /* of all captured or timed frames */
+    const char *options;
+    bool is_unknown, is_wrong_image;
     uint32_t wrong, reasons, unexplained; /* what is expected */
 } fake;
 
@@ -37,11 +40,14 @@ static fm_case_row row_of(const fake *one)
                         .feed = one->feed,
                         .scene = "s",
                         .order = one->order,
-                        .options = "",
+                        .options = one->options != NULL ? one->options : "",
                         .look = { .title = "M", .traits = one->traits },
                         .is_ok = true,
                         .is_measured = true,
-                        .is_software = one->is_software };
+                        .is_software = one->is_software || one->is_unknown,
+                        .is_device_known = !one->is_unknown };
+    if (one->is_wrong_image)
+        row.outcome = FM_CASE_WRONG_IMAGE;
     for (int i = 0; i < FM_METRIC_COUNT; i++)
         row.metric[i] = NAN;
     row.metric[FM_METRIC_N] = 12;
@@ -59,6 +65,11 @@ static fm_case_row row_of(const fake *one)
     row.metric[FM_METRIC_SELF_MAX_ABS] = row.metric[FM_METRIC_SELF_BEYOND] = one->self_beyond;
     row.metric[FM_METRIC_DISTINCT_IMAGES] = one->images > 0 ? one->images : 1;
     row.metric[FM_METRIC_TIED_PIXELS] = one->tied;
+    row.metric[FM_METRIC_RMSE] = 0;
+    row.metric[FM_METRIC_MAX_ABS] = one->off_truth;
+    row.metric[FM_METRIC_MISSING_MAX] = one->missing_max;
+    row.metric[FM_METRIC_DISTINCT_FRAGMENTS] = one->sets > 0 ? one->sets : 1;
+    row.metric[FM_METRIC_FRAMES_RMSE_MAX] = one->worst_frame;
     return row;
 }
 
@@ -109,7 +120,7 @@ static const fake fakes[] = {
     /* which one of a tie survives may change from frame to frame, but not where they come in turn
      */
     { FLIGHT, .traits = FM_TRAIT_LOSES_TIES, .missing = TIES, .lost_ties = TIES, .self_beyond = 0.1,
-      .wrong = FM_WRONG_MISSING | FM_WRONG_IMAGE, .reasons = FM_TRAIT_LOSES_TIES },
+      .tied = 1, .wrong = FM_WRONG_MISSING | FM_WRONG_IMAGE, .reasons = FM_TRAIT_LOSES_TIES },
     { TURNS, .traits = FM_TRAIT_LOSES_TIES, .missing = TIES, .lost_ties = TIES, .self_beyond = 0.1,
       .wrong = FM_WRONG_MISSING | FM_WRONG_IMAGE, .reasons = FM_TRAIT_LOSES_TIES,
       .unexplained = FM_WRONG_IMAGE },
@@ -155,12 +166,54 @@ static const fake fakes[] = {
     { TURNS, .traits = FM_TRAIT_SORTED_INPUT, .missing = 1, .images = 2,
       .wrong = FM_WRONG_MISSING | FM_WRONG_UNSTABLE, .reasons = FM_TRAIT_SORTED_INPUT,
       .unexplained = FM_WRONG_UNSTABLE },
-    { TURNS, .traits = FM_TRAIT_MULTISAMPLED, .missing = 1, .extra = 1,
-      .wrong = FM_WRONG_MISSING | FM_WRONG_EXTRA, .reasons = FM_TRAIT_MULTISAMPLED },
-    { TURNS, .traits = FM_TRAIT_APPROXIMATE, .missing = WANTED, .self_beyond = 0.9,
-      .wrong = FM_WRONG_MISSING | FM_WRONG_IMAGE, .reasons = FM_TRAIT_APPROXIMATE },
+    /* approximations are judged by their image */
+    { TURNS, .traits = FM_TRAIT_APPROXIMATE, .missing = WANTED, .extra = 3, .self_beyond = 0.9 },
+    { TURNS, .traits = FM_TRAIT_APPROXIMATE, .missing = WANTED, .off_truth = 0.1,
+      .wrong = FM_WRONG_IMAGE, .reasons = FM_TRAIT_APPROXIMATE },
     { TURNS, .traits = FM_TRAIT_APPROXIMATE, .lost = 1, .wrong = FM_WRONG_LOST,
       .unexplained = FM_WRONG_LOST },
+    /* other frames */
+    { TURNS, .traits = FM_TRAIT_EXACT, .is_wrong_image = true, .tied = 5, .wrong = FM_WRONG_IMAGE,
+      .unexplained = FM_WRONG_IMAGE },
+    { TURNS, .traits = FM_TRAIT_EXACT, .tied = 5, .worst_frame = 0.1, .wrong = FM_WRONG_UNSTABLE,
+      .unexplained = FM_WRONG_UNSTABLE },
+    { TURNS, .traits = FM_TRAIT_EXACT, .tied = 5,
+      .sets = 2 }, /* another one of a tie at the k-th */
+    { TURNS, .traits = FM_TRAIT_EXACT, .missing_max = 9,
+      .wrong = FM_WRONG_MISSING | FM_WRONG_UNSTABLE,
+      .unexplained = FM_WRONG_MISSING | FM_WRONG_UNSTABLE },
+    { FLIGHT, .traits = FM_TRAIT_RACY, .missing_max = 9, .sets = 3,
+      .wrong = FM_WRONG_MISSING | FM_WRONG_UNSTABLE, .reasons = FM_TRAIT_RACY },
+    { TURNS, .traits = FM_TRAIT_RACY, .sets = 3, .wrong = FM_WRONG_UNSTABLE,
+      .unexplained = FM_WRONG_UNSTABLE },
+    /* a device that the manifest does not list yet may be a GPU */
+    { RASTER, .is_unknown = true, .traits = FM_TRAIT_RACY, .missing = 9, .wrong = FM_WRONG_MISSING,
+      .reasons = FM_TRAIT_RACY },
+    /* planes that cross arrive in no order; samples of flat layers are those of the centre */
+    { .feed = "raster",
+      .order = "ascending",
+      .options = "depths=sloped",
+      .is_software = true,
+      .traits = FM_TRAIT_SORTED_INPUT,
+      .missing = 9,
+      .wrong = FM_WRONG_MISSING,
+      .reasons = FM_TRAIT_SORTED_INPUT },
+    { .feed = "raster",
+      .order = "",
+      .is_software = true,
+      .traits = FM_TRAIT_MULTISAMPLED,
+      .extra = 9,
+      .wrong = FM_WRONG_EXTRA,
+      .reasons = FM_TRAIT_MULTISAMPLED },
+    { TURNS, .traits = FM_TRAIT_MULTISAMPLED, .missing = 9, .extra = 9,
+      .wrong = FM_WRONG_MISSING | FM_WRONG_EXTRA,
+      .unexplained = FM_WRONG_MISSING | FM_WRONG_EXTRA },
+    /* what the file says is lost has to be declared */
+    { TURNS, .traits = FM_TRAIT_EXACT, .missing = 5, .lost_ties = 5, .wrong = FM_WRONG_MISSING,
+      .unexplained = FM_WRONG_MISSING },
+    { FLIGHT, .traits = FM_TRAIT_LOSES_TIES, .missing = TIES, .lost_ties = TIES, .self_beyond = 0.1,
+      .wrong = FM_WRONG_MISSING | FM_WRONG_IMAGE, .reasons = FM_TRAIT_LOSES_TIES,
+      .unexplained = FM_WRONG_IMAGE }, /* ties of one colour */
     { TURNS, .traits = 0, .missing = 1, .wrong = FM_WRONG_MISSING,
       .unexplained = FM_WRONG_MISSING },
 };
@@ -196,6 +249,7 @@ static void what_is_right_is_exact_or_within_tolerance(void **state)
     assert_int_equal(verdict_of(FM_CASE_OK, FM_TRAIT_EXACT, 0x1.8p-23), FM_STABILITY_TOLERATED);
     assert_int_equal(verdict_of(FM_CASE_OK, FM_TRAIT_EXACT, 9e-7), FM_STABILITY_TOLERATED);
     assert_int_equal(verdict_of(FM_CASE_WRONG_IMAGE, FM_TRAIT_EXACT, 2e-6), FM_STABILITY_WRONG);
+    assert_int_equal(verdict_of(FM_CASE_WRONG_IMAGE, FM_TRAIT_EXACT, 0), FM_STABILITY_WRONG);
     assert_int_equal(verdict_of(FM_CASE_NOT_SUPPORTED, 0, 0), FM_STABILITY_NOT_SUPPORTED);
     assert_int_equal(verdict_of(FM_CASE_SKIPPED, 0, 0), FM_STABILITY_NONE);
     assert_int_equal(verdict_of(FM_CASE_OK, FM_TRAIT_FLOOR, 0), FM_STABILITY_NONE);
@@ -236,8 +290,26 @@ static void wrong_tiles_need_a_technique_that_is_not_exact(void **state)
     row.metric[FM_METRIC_WRONG_TILES] = 2;
     assert_int_equal(blame_case(&row).unexplained, FM_WRONG_TILES);
     row.look.traits = 0;
-    assert_int_equal(blame_case(&row).wrong, FM_WRONG_TILES);
-    assert_int_equal(blame_case(&row).unexplained, 0);
+    const fm_blame blame = blame_case(&row);
+    assert_int_equal(blame.wrong, FM_WRONG_TILES);
+    assert_int_equal(blame.unexplained, 0);
+    char words[BLAME_WORDS_BYTES];
+    blame_words(words, &blame, &row);
+    assert_string_equal(words, "not declared exact");
+}
+
+/* Files of before the columns, and numbers that no case can have. */
+static void what_is_not_recorded_is_unknown(void **state)
+{
+    (void)state;
+    const fake one = { TURNS, .traits = FM_TRAIT_LOSES_TIES, .missing = 7 };
+    fm_case_row row = row_of(&one);
+    row.metric[FM_METRIC_N] = 0x1p53;
+    assert_int_equal(blame_case(&row).verdict, FM_STABILITY_WRONG);
+    row.metric[FM_METRIC_FRAGMENTS_WANTED] = NAN;
+    const fm_blame blame = blame_case(&row);
+    assert_int_equal(blame.verdict, FM_STABILITY_UNKNOWN);
+    assert_false(blame_is_open(&blame));
 }
 
 /* Two methods on two scenes; one has two cases there, and a floor none. */
@@ -299,7 +371,7 @@ static void the_table_has_a_row_a_case(void **state)
     const char *row = strchr(csv.bytes, '\n') + 1;
     assert_string_equal(row,
                         "a,vulkan,a GPU,0,raster,s,random,m,bounded racy,,0,12,ok,wrong,missing,"
-                        "fragments race,,100,40,0,0,0,0,0,0,0,0,0,0,1,,\n");
+                        "fragments race,,100,40,0,0,0,0,0,0,0,0,0,0,1,0,1,0,,0,0\n");
     text_free(&csv);
 }
 
@@ -310,6 +382,7 @@ int main(void)
         cmocka_unit_test(what_is_right_is_exact_or_within_tolerance),
         cmocka_unit_test(reasons_are_words),
         cmocka_unit_test(wrong_tiles_need_a_technique_that_is_not_exact),
+        cmocka_unit_test(what_is_not_recorded_is_unknown),
         cmocka_unit_test(a_cell_shows_its_worst_case),
         cmocka_unit_test(feeds_and_devices_have_matrices_of_their_own),
         cmocka_unit_test(the_table_has_a_row_a_case),

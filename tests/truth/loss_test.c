@@ -3,12 +3,18 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <string.h>
 
 #include <cmocka.h>
 
 #include "truth/check.h"
 
-enum { ONE = FM_TRAIT_LOSES_DEPTH_ONE, TIES = FM_TRAIT_LOSES_TIES, MOST = 6 };
+enum {
+    ONE = FM_TRAIT_LOSES_DEPTH_ONE,
+    TIES = FM_TRAIT_LOSES_TIES,
+    PASSES = FM_TRAIT_PASSES_LOSE_TIES,
+    MOST = 6
+};
 
 /* A pixel's depths, front to back, ended by -1; colours follow their places. */
 typedef struct pixel {
@@ -32,6 +38,7 @@ static const pixel pixels[] = {
     { "a depth of its own", { 0.25f, 0.5f, 0.5f, -1 }, { 0.5f, -1 }, TIES, 2, 0, 1 },
     { "ties at depth 1, both declared", { 1, 1, -1 }, { 1, -1 }, ONE | TIES, 1, 1, 0 },
     { "ties at depth 1, ties declared", { 1, 1, -1 }, { -1 }, TIES, 2, 0, 1 },
+    { "ties that passes lose", { 0.5f, 0.5f, 0.5f, -1 }, { 0.5f, 0.5f, -1 }, PASSES, 1, 0, 1 },
     { "-0 and 0", { -0.0f, 0, -1 }, { 0, -1 }, TIES, 1, 0, 1 },
     { "depths that are no numbers excuse nothing", { 0.5f, -1 }, { NAN, -1 }, ONE | TIES, 1, 0, 0 },
 };
@@ -64,6 +71,28 @@ static void traits_excuse_what_they_declare_and_no_more(void **state)
     }
 }
 
+/* Known from truth alone, whatever was captured. */
+static void what_is_to_get_lost_is_counted(void **state)
+{
+    (void)state;
+    const fm_fragment truth[] = { { 0.25f, 1 }, { 0.5f, 2 }, { 0.5f, 3 },
+                                  { 0.5f, 4 },  { 1, 5 },    { 1, 6 } };
+    fm_fragment captured[MOST];
+    fm_check check = { .traits = ONE | TIES };
+    memcpy(captured, truth, sizeof truth);
+    check_pixel(&check, captured, MOST, truth, MOST, MOST);
+    assert_int_equal(check.wanted, MOST);
+    assert_int_equal(check.declared.of_ties, 2);
+    assert_int_equal(check.declared.at_depth_one, 2);
+    assert_int_equal(check.excused.of_ties + check.excused.at_depth_one, 0);
+    check_pixel(&check, captured, 1, truth, MOST, 3); /* of three wanted ones, one tie */
+    assert_int_equal(check.wanted, MOST + 3);
+    assert_int_equal(check.declared.of_ties, 3);
+    check = (fm_check){ .traits = TIES };
+    check_pixel(&check, captured, 0, truth, MOST, MOST);
+    assert_int_equal(check.declared.of_ties, 3); /* with the two at depth 1 */
+}
+
 /* Only what was wanted can be missing. */
 static void fragments_beyond_the_wanted_are_not_lost(void **state)
 {
@@ -81,6 +110,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(traits_excuse_what_they_declare_and_no_more),
+        cmocka_unit_test(what_is_to_get_lost_is_counted),
         cmocka_unit_test(fragments_beyond_the_wanted_are_not_lost),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
