@@ -211,6 +211,45 @@ static fm_status compare(findings *found, const error_arguments *given, fm_error
     return image_compare(&found->error, &desc, err);
 }
 
+static bool is_all_opaque(const findings *found)
+{
+    for (size_t i = 0; i < found->pixels; i++)
+        if (found->images[1]->rgba[4 * i + 3] < 1.0F)
+            return false;
+    return true;
+}
+
+/* Pixels of either image with a colour that a display of low range cannot show. */
+static size_t count_beyond(const findings *found)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < found->pixels; i++) {
+        bool is_beyond = false;
+        for (int image = 0; image < 2; image++)
+            for (int channel = 0; channel < 3; channel++) {
+                const float value = found->images[image]->rgba[4 * i + (size_t)channel];
+                is_beyond |= value < 0.0F || value > 1.0F;
+            }
+        count += is_beyond;
+    }
+    return count;
+}
+
+/* What a reader of the numbers would not expect. */
+static void tell_notes(const findings *found, const error_arguments *given)
+{
+    const size_t beyond = given->is_hdr ? 0 : count_beyond(found);
+    if (beyond > 0)
+        fprintf(stderr,
+                "fragmark: note: %zu pixels are beyond [0,1], where FLIP clamps them; "
+                "--hdr does not\n",
+                beyond);
+    if (is_all_opaque(found))
+        fprintf(stderr, "fragmark: note: the reference is opaque everywhere: all pixels are "
+                        "covered (a run's PNG files stand in front of white, its EXR files have "
+                        "alpha)\n");
+}
+
 static fm_status read_pair(findings *found, const error_arguments *given, fm_error *err)
 {
     fm_status status = FM_OK;
@@ -301,7 +340,11 @@ int error_main(int argc, char **argv)
         print_json(&given, &found);
     else
         print_csv(&given, &found);
+    if (code == FM_EXIT_DONE)
+        tell_notes(&found, &given);
     findings_free(&found);
-    const bool is_written = fflush(stdout) == 0 && !ferror(stdout);
-    return code == FM_EXIT_DONE && !is_written ? FM_EXIT_INCOMPLETE : code;
+    if (code != FM_EXIT_DONE || (fflush(stdout) == 0 && !ferror(stdout)))
+        return code;
+    fprintf(stderr, "fragmark: the output cannot be written\n");
+    return FM_EXIT_INCOMPLETE;
 }

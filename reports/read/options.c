@@ -27,7 +27,7 @@ static bool is_wanted(const pair *one, fm_options_sort sort, const fm_text_list 
     char name[64];
     snprintf(name, sizeof name, "%.*s", (int)one->key_length, one->text);
     const fm_key *key = key_find(name);
-    const bool is_of_scene = key != NULL && key->scope == FM_SCOPE_SCENE;
+    const bool is_of_scene = key != NULL && (key->scope == FM_SCOPE_SCENE || key->is_of_picture);
     return is_of_scene == (sort == FM_OPTIONS_OF_SCENE) && !text_list_has(without, name);
 }
 

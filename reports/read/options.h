@@ -1,5 +1,6 @@
 /* Options of a case: the text "key=value key=value" that summary.csv holds in one cell. Keys of the
- * scene among them belong to the workload; all others are the method's own. */
+ * scene and of the picture (exposure) among them belong to the workload; all others are the
+ * method's own. */
 #ifndef FM_READ_OPTIONS_H
 #define FM_READ_OPTIONS_H
 

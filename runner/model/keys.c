@@ -256,7 +256,7 @@ const fm_key fm_keys[] = {
     { "own_cull", FM_KEY_ENUM, QUIET, AT(own_cull), NAMES(own_cull_names),
       .fallback = "on", .help = "the method's own test before its lock" },
     { "exposure", FM_KEY_REAL, QUIET, AT(exposure), .low = -16, .high = 16, .fallback = "0",
-      .unit = "stops", .help = "pictures are compared with colours times 2^E, alpha as it is" },
+      .unit = "stops", .help = "pictures are compared with colours times 2^E, alpha as it is", .is_of_picture = true },
     { "accumulate", FM_KEY_ENUM, QUIET, AT(accumulate), NAMES(accumulate_names),
       .fallback = "float32", .help = "what each step of compositing is rounded to" },
     { "composite", FM_KEY_ENUM, QUIET, AT(composite), NAMES(composite_names),

@@ -236,9 +236,10 @@ typedef struct fm_key {
     uint32_t generators; /* scene keys: bit g: generator g reads it; 0: all do */
     bool optional;       /* FM_KEY_UINT: "none" is a value too, kept as `absent` */
     uint32_t absent;
-    const char *with; /* case keys: changes nothing while this other key is at its default */
-    bool is_quiet;    /* at its default it is not part of a case's id, or of a scene's hash, which
-                         so stays what it was before there was the key */
+    const char *with;   /* case keys: changes nothing while this other key is at its default */
+    bool is_quiet;      /* at its default it is not part of a case's id, or of a scene's hash, which
+                           so stays what it was before there was the key */
+    bool is_of_picture; /* case keys: pictures, and so errors, of two values do not compare */
 } fm_key;
 
 enum { FM_MAX_KEYS = 128 };

@@ -125,7 +125,7 @@ static void write_case_metric(fm_text *text, const row_state *row, fm_metric met
         write_key(text, row, fm_metrics[metric].name);
 }
 
-/* Layers tell their recipe; frames, whose scene's name says it, only what an axis changed. */
+/* Layers tell their recipe; others, whose scene's name says it, only what an axis changed. */
 static bool is_told(const fm_case *measured, size_t index, const fm_settings *defaults,
                     char value[FM_PATH_MAX_BYTES])
 {
@@ -134,7 +134,7 @@ static bool is_told(const fm_case *measured, size_t index, const fm_settings *de
     const fm_generator generator = measured->settings.generator;
     const bool is_scenes = key->scope == FM_SCOPE_SCENE && key_is_read(key, generator);
     const bool is_changed =
-        is_scenes && generator_makes_frames(generator) && case_is_given(measured, key);
+        is_scenes && generator != FM_GENERATOR_LAYERS && case_is_given(measured, key);
     const bool is_recipe = is_scenes && generator == FM_GENERATOR_LAYERS;
     if ((key->scope != FM_SCOPE_CASE && !is_recipe && !is_changed) ||
         summary_has_column(key->name) || strcmp(key->name, "generator") == 0)

@@ -37,6 +37,15 @@ printf 'PF\n1 1\n-1.0\n\0\0\0\0\0\0\0\0\0\0\0\0' >"$out/black.pfm"
 expect_near "red of half alpha" "$(printed rmse 2)" "$(awk 'BEGIN { a = 128 / 255; print sqrt((a * a + (1 - a) ^ 2) / 4) }')"
 [ -z "$(printed ssim 2)" ] || fail "one pixel has an ssim"
 
+# What is beyond [0,1] is told, unless --hdr measures it, and that an opaque reference is covered everywhere.
+printf 'PF\n1 1\n-1.0\n\0\0\240\100\0\0\240\100\0\0\240\100' >"$out/five.pfm"
+"$fragmark" error "$out/five.pfm" "$out/black.pfm" >/dev/null 2>"$out/said"
+grep -q '1 pixels are beyond' "$out/said" && grep -q 'opaque everywhere' "$out/said" || fail "no note: $(cat "$out/said")"
+"$fragmark" error --hdr "$out/five.pfm" "$out/black.pfm" >/dev/null 2>"$out/said"
+! grep -q beyond "$out/said" || fail "a note with --hdr"
+"$fragmark" error "$image.exr" "$image.exr" >/dev/null 2>"$out/said"
+[ ! -s "$out/said" ] || fail "a note without need: $(cat "$out/said")"
+
 # refused WORDS ARGUMENT...
 refused() {
     local words=$1 code=0

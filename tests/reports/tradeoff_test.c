@@ -272,6 +272,19 @@ static void exact_is_as_bright_as_the_picture(void **state)
     assert_true(error_kind_of(rmse(), &row) == 0);
 }
 
+/* A frame that was right does not make a method exact. */
+static void the_worst_frame_counts(void **state)
+{
+    (void)state;
+    const fake racy = { "racy", 0, 1, 1, 1, 0, false, false };
+    fm_case_row row = row_of(&racy, "layers");
+    assert_true(error_kind_of(rmse(), &row) == 0);
+    row.metric[FM_METRIC_FRAMES_TOTAL_RMSE_MAX] = 0.007;
+    assert_true(error_kind_of(rmse(), &row) == 0.007);
+    row.metric[FM_METRIC_TOTAL_RMSE] = 0.01;
+    assert_true(error_kind_of(rmse(), &row) == 0.01);
+}
+
 static void table_has_what_is_charted(void **state)
 {
     (void)state;
@@ -299,6 +312,7 @@ int main(void)
         cmocka_unit_test(methods_over_two_scenes),
         cmocka_unit_test(other_errors_may_be_chosen),
         cmocka_unit_test(exact_is_as_bright_as_the_picture),
+        cmocka_unit_test(the_worst_frame_counts),
         cmocka_unit_test(table_has_what_is_charted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
