@@ -92,6 +92,36 @@ static void milliseconds_of_two_machines_are_refused(void **state)
     }
 }
 
+/* The manifest of a run that was interrupted lists no devices, and its rows know them; a name that
+ * neither tells is nobody's. */
+static void milliseconds_of_two_devices_are_refused(void **state)
+{
+    static const char *const other[] = { "k=4;device_name=H200" }, *const none[] = {
+        "k=4;device_name="
+    };
+    static const char unnamed[] = "{\"selector\": \"vulkan\", \"name\": \"\"}";
+    const kit_run_desc same = { ROWS(one), .devices = "" };
+    const kit_run_desc others[] = {
+        { ROWS(other), .devices = "" }, { ROWS(other), .devices = unnamed }, { ROWS(other) },
+        { ROWS(none), .devices = "" },  { ROWS(none), .devices = unnamed },
+    };
+    kit_comparison kit;
+    (void)state;
+    expect_choice(&same, NULL, NULL, "frame_ms", FM_OK);
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
+        expect_choice(&others[i], NULL, NULL, "frame_ms / floor", FM_OK);
+        expect_choice(&others[i], "frame_ms", NULL, "", FM_UNSUPPORTED);
+    }
+    kit_compare(&kit, &usual, &others[0], NULL);
+    assert_int_equal(kit.made.machines.count, 1);
+    assert_string_equal(kit.made.machines.differing[0].name, "vulkan name");
+    assert_string_equal(kit.made.machines.differing[0].now, "H200");
+    kit_end(&kit);
+    kit_compare(&kit, &others[3], &others[3], NULL);
+    assert_false(kit.made.machines.is_same_machine);
+    kit_end(&kit);
+}
+
 /* A new kernel, and a memory that it counts a little otherwise, are no other machine. */
 static void days_and_kernels_leave_the_machine_the_same(void **state)
 {
@@ -354,6 +384,7 @@ int main(void)
         cmocka_unit_test(cases_of_one_name_are_told_apart_by_n),
         cmocka_unit_test(runs_without_a_common_case_do_not_compare),
         cmocka_unit_test(milliseconds_of_two_machines_are_refused),
+        cmocka_unit_test(milliseconds_of_two_devices_are_refused),
         cmocka_unit_test(days_and_kernels_leave_the_machine_the_same),
         cmocka_unit_test(unknown_metrics_and_methods_are_refused_with_the_nearest),
         cmocka_unit_test(ratios_to_the_floor_are_taken_within_launches),
