@@ -186,6 +186,8 @@ void compared_add_changes(fm_text *text, const fm_compared *compared)
 {
     for (size_t i = 0; i < compared->changes.count; i++) {
         const fm_change *change = &compared->changes.items[i];
-        text_add(text, "%s%s %s -> %s", i > 0 ? "; " : "", change->name, change->base, change->now);
+        text_add(text, "%s%s %s -> %s", i > 0 ? "; " : "", change->name,
+                 change->base[0] != '\0' ? change->base : "(empty)",
+                 change->now[0] != '\0' ? change->now : "(empty)");
     }
 }
