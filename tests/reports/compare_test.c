@@ -1,6 +1,8 @@
 /* Two runs compared: which cases are joined, what is compared, what comes of it. */
 #include "compare_kit.h"
 
+#include <time.h>
+
 #include "base/launch_noise.h"
 
 /* Ids of a changed method differ; what it was asked for names its case, defaults left out. */
@@ -181,6 +183,27 @@ static void ratios_to_the_floor_are_taken_within_launches(void **state)
     assert_true(compared->ratio.median == 2.0);
     assert_int_equal(compared->verdict, FM_COMPARED_SLOWER);
     kit_end(&kit);
+}
+
+/* Many samples cost no more each than few: pairs of these would take a minute. */
+static void ratios_to_the_floor_need_one_pass(void **state)
+{
+    enum { LAUNCHES = 10, FRAMES = 20000 };
+    fm_text samples = { 0 };
+    kit_comparison kit;
+    (void)state;
+    for (unsigned i = 0; i < LAUNCHES * FRAMES; i++) /* the floor's in another order */
+        text_add(&samples, "c0 %u frame_ms %u\nc0 %u floor_frame_ms %u\n", i / FRAMES,
+                 3 * (i % 7 + 1), LAUNCHES - 1 - i / FRAMES, i % 7 + 1);
+    const kit_run_desc run = { ROWS(one), .samples = samples.bytes };
+    const clock_t start = clock();
+    kit_compare(&kit, &run, &run, &(fm_quantity_desc){ NULL, "floor" });
+    assert_true(clock() - start < 10 * CLOCKS_PER_SEC);
+    const fm_compared *compared = kit_case(&kit, "c0");
+    assert_true(compared->base.low == 3.0 && compared->base.high == 3.0);
+    assert_int_equal(compared->verdict, FM_COMPARED_SAME);
+    kit_end(&kit);
+    text_free(&samples);
 }
 
 static void ratios_to_a_method_are_of_the_same_workload(void **state)
@@ -429,6 +452,7 @@ int main(void)
         cmocka_unit_test(days_and_kernels_leave_the_machine_the_same),
         cmocka_unit_test(unknown_metrics_and_methods_are_refused_with_the_nearest),
         cmocka_unit_test(ratios_to_the_floor_are_taken_within_launches),
+        cmocka_unit_test(ratios_to_the_floor_need_one_pass),
         cmocka_unit_test(ratios_to_a_method_are_of_the_same_workload),
         cmocka_unit_test(verdicts_follow_from_interval_and_band),
         cmocka_unit_test(what_is_exact_is_compared_without_intervals),
