@@ -1,6 +1,7 @@
 /* Two runs compared: which cases are joined, what is compared, what comes of it. */
 #include "compare_kit.h"
 
+#include <sys/stat.h>
 #include <time.h>
 
 #include "base/launch_noise.h"
@@ -363,6 +364,8 @@ static void a_cell_that_one_run_leaves_empty_is_a_change(void **state)
     "{\"event\":\"end\",\"case\":\"" id "\",\"launch\":0,\"result\":{\"image_hashes\":[" hashes    \
     "]}}\n"
 
+#define HASH(first, last) "\"" #first "00000000000000" #last "\""
+
 /* Case 0 has another picture, 1 the same, 2 one that is forgotten, 3 several, 4 another driver's,
  * 5 none that is told. */
 static void pictures_are_compared_by_their_hashes(void **state)
@@ -370,20 +373,54 @@ static void pictures_are_compared_by_their_hashes(void **state)
     static const char *const rows[] = { "k=1", "k=2", "k=3", "k=4", "k=5", "k=6" };
     static const char *const others[] = { "k=1", "k=2", "k=3", "k=4", "k=5;code_driver=e", "k=6" };
     const kit_run_desc base = { ROWS(rows),
-                                .journal = DREW("c0", "\"0a\"") DREW("c1", "\"0b\"")
-                                    DREW("c2", "\"0c\"") "not JSON\n" DREW("c3", "\"0d\"")
-                                        DREW("c4", "\"0e\"") DREW("other", "\"0f\"") };
+                                .journal = DREW("c0", HASH(0, a)) DREW("c1", HASH(0, b))
+                                    DREW("c2", HASH(0, c)) "not JSON\n" DREW("c3", HASH(0, d))
+                                        DREW("c4", HASH(0, e)) DREW("other", HASH(0, f)) };
     const kit_run_desc now = {
-        ROWS(others), .journal = DREW("c0", "\"1a\"") DREW("c0", "\"1a\"") DREW("c1", "\"0b\"")
-                          DREW("c2", "\"9c\"") "{\"event\":\"forget\",\"case\":\"c2\"}\n" DREW(
-                              "c2", "\"0c\"") DREW("c3", "\"1d\",\"2d\"") DREW("c4", "\"1e\"")
+        ROWS(others),
+        .journal = DREW("c0", HASH(1, a)) DREW("c0", HASH(1, a)) DREW("c1", HASH(0, b))
+            DREW("c2", HASH(9, c)) "{\"event\":\"forget\",\"case\":\"c2\"}\n" DREW("c2", HASH(0, c))
+                DREW("c3", HASH(1, d) "," HASH(2, d)) DREW("c4", HASH(1, e))
     };
     kit_comparison kit;
     (void)state;
     kit_compare(&kit, &base, &now, NULL);
-    expect_changes(&kit, "c0", "image 0a -> 1a");
+    expect_changes(&kit, "c0", "image 000000000000000a -> 100000000000000a");
     assert_int_equal(comparison_changed(&kit.made), 1);
     kit_end(&kit);
+}
+
+/* "several" stands for more than one; a journal that says so itself has no hash. */
+static void what_is_no_hash_is_no_picture(void **state)
+{
+    static const char *const rows[] = { "k=1", "k=2", "k=3" };
+    const kit_run_desc base = { ROWS(rows), .journal = DREW("c0", HASH(0, a)) DREW("c1", HASH(0, b))
+                                                DREW("c2", HASH(0, c)) };
+    const kit_run_desc now = { ROWS(rows), .journal = DREW("c0", "\"several\"")
+                                               DREW("c1", "\"123456789ABCDEF0\",7")
+                                                   DREW("c2", "\"several\"," HASH(1, c)) };
+    kit_comparison kit;
+    (void)state;
+    kit_compare(&kit, &base, &now, NULL);
+    expect_changes(&kit, "c2", "image 000000000000000c -> 100000000000000c");
+    assert_int_equal(comparison_changed(&kit.made), 1);
+    kit_end(&kit);
+}
+
+static void a_journal_that_cannot_be_read_is_an_error(void **state)
+{
+    char path[96];
+    kit_run run;
+    fm_images images;
+    fm_error err = { 0 };
+    (void)state;
+    kit_open(&run, &usual);
+    snprintf(path, sizeof path, "%s/journal.jsonl", run.directory);
+    assert_int_equal(mkdir(path, 0700), 0);
+    assert_int_equal(images_read(&images, run.results, &err), FM_IO);
+    assert_non_null(strstr(err.message, path));
+    images_free(&images);
+    kit_close(&run);
 }
 
 static void other_code_is_told_by_its_parts(void **state)
@@ -459,6 +496,8 @@ int main(void)
         cmocka_unit_test(methods_that_became_unsteady_hide_nothing),
         cmocka_unit_test(a_cell_that_one_run_leaves_empty_is_a_change),
         cmocka_unit_test(pictures_are_compared_by_their_hashes),
+        cmocka_unit_test(what_is_no_hash_is_no_picture),
+        cmocka_unit_test(a_journal_that_cannot_be_read_is_an_error),
         cmocka_unit_test(other_code_is_told_by_its_parts),
         cmocka_unit_test(equal_runs_are_same_or_unclear),
     };
