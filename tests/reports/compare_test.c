@@ -185,6 +185,30 @@ static void ratios_to_the_floor_are_taken_within_launches(void **state)
     kit_end(&kit);
 }
 
+/* Of two launches the interval is 5.85 times their range to both sides, and it decides. */
+static void two_launches_are_judged(void **state)
+{
+    static const char base[] = "c0 0 frame_ms 10\nc0 1 frame_ms 10.1\n"
+                               "c0 0 floor_frame_ms 1\nc0 1 floor_frame_ms 1\n";
+    static const char now[] = "c0 0 frame_ms 12\nc0 1 frame_ms 12.1\n"
+                              "c0 0 floor_frame_ms 1\nc0 1 floor_frame_ms 1\n";
+    static const char wide[] = "c0 0 frame_ms 11\nc0 1 frame_ms 12\n"
+                               "c0 0 floor_frame_ms 1\nc0 1 floor_frame_ms 1\n";
+    static const char *const two[] = { "k=4;launches=2" };
+    const kit_run_desc runs[] = { { ROWS(two), .samples = base },
+                                  { ROWS(two), .samples = now },
+                                  { ROWS(two), .samples = wide } };
+    static const fm_compared_verdict expected[] = { FM_COMPARED_UNCLEAR, FM_COMPARED_SLOWER,
+                                                    FM_COMPARED_UNCLEAR };
+    (void)state;
+    for (int i = 1; i < 3; i++) {
+        kit_comparison kit;
+        kit_compare(&kit, &runs[0], &runs[i], &(fm_quantity_desc){ NULL, "floor" });
+        assert_int_equal(kit_case(&kit, "c0")->verdict, expected[i]);
+        kit_end(&kit);
+    }
+}
+
 /* Many samples cost no more each than few: pairs of these would take a minute. */
 static void ratios_to_the_floor_need_one_pass(void **state)
 {
@@ -330,6 +354,7 @@ int main(void)
         cmocka_unit_test(days_and_kernels_leave_the_machine_the_same),
         cmocka_unit_test(unknown_metrics_and_methods_are_refused_with_the_nearest),
         cmocka_unit_test(ratios_to_the_floor_are_taken_within_launches),
+        cmocka_unit_test(two_launches_are_judged),
         cmocka_unit_test(ratios_to_the_floor_need_one_pass),
         cmocka_unit_test(ratios_to_a_method_are_of_the_same_workload),
         cmocka_unit_test(verdicts_follow_from_interval_and_band),
