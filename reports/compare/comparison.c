@@ -127,13 +127,13 @@ fm_status comparison_make(fm_comparison *comparison, const fm_comparison_desc *d
 {
     *comparison =
         (fm_comparison){ .base_run = desc->base, .now_run = desc->now, .band = desc->band };
-    fm_status status =
-        machines_compare(&comparison->machines, desc->base->manifest, desc->now->manifest, err);
+    const fm_machines_desc machines = { desc->base, desc->now, &comparison->pairs };
+    fm_status status = join_cases(&comparison->pairs, desc->base, desc->now, err);
+    if (status == FM_OK)
+        status = machines_compare(&comparison->machines, &machines, err);
     if (status == FM_OK)
         status = quantity_choose(&comparison->quantity, &desc->quantity, &comparison->machines,
                                  desc->base, desc->now, err);
-    if (status == FM_OK)
-        status = join_cases(&comparison->pairs, desc->base, desc->now, err);
     if (status == FM_OK)
         status = images_read(&comparison->base_images, desc->base, err);
     if (status == FM_OK)
@@ -186,6 +186,8 @@ void compared_add_changes(fm_text *text, const fm_compared *compared)
 {
     for (size_t i = 0; i < compared->changes.count; i++) {
         const fm_change *change = &compared->changes.items[i];
-        text_add(text, "%s%s %s -> %s", i > 0 ? "; " : "", change->name, change->base, change->now);
+        text_add(text, "%s%s %s -> %s", i > 0 ? "; " : "", change->name,
+                 change->base[0] != '\0' ? change->base : "(empty)",
+                 change->now[0] != '\0' ? change->now : "(empty)");
     }
 }

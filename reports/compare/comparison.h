@@ -16,7 +16,7 @@
 typedef enum fm_compared_verdict {
     FM_COMPARED_SLOWER,  /* the interval lies above 1, the ratio above the band */
     FM_COMPARED_UNCLEAR, /* the interval allows more than one of the others, or there is none, or a
-                            row is noisy */
+                            row is noisy. Two launches have a very wide one, which counts */
     FM_COMPARED_SAME,    /* the whole interval lies in the band */
     FM_COMPARED_FASTER,  /* the interval lies below 1, the ratio below the band */
     FM_COMPARED_UNTIMED, /* no time in one of them or both: see their status */

@@ -38,14 +38,13 @@ static fm_status compare_text(fm_changes *changes, const char *name, const char 
 
 static void write_number(char text[FM_CHANGE_TEXT_BYTES], double value)
 {
-    snprintf(text, FM_CHANGE_TEXT_BYTES, "%.15g", value);
+    if (!isnan(value))
+        snprintf(text, FM_CHANGE_TEXT_BYTES, "%.15g", value);
 }
 
-static fm_status compare_number(fm_changes *changes, const char *name, double base, double now,
-                                fm_error *err)
+static fm_status add_numbers(fm_changes *changes, const char *name, double base, double now,
+                             fm_error *err)
 {
-    if (isnan(base) || isnan(now) || base == now)
-        return FM_OK;
     fm_change *change = add(changes, name);
     if (change == NULL)
         return fm_fail(err, FM_NO_MEMORY, "no memory for %zu changes", changes->count);
@@ -62,21 +61,42 @@ static bool is_of_scene_or_memory(fm_metric metric)
            metric == FM_METRIC_TRUTH_DIGEST;
 }
 
-static bool repeats(const fm_case_row *row)
+static bool is_racy(const fm_pair *pair)
 {
-    return (row->look.traits & FM_TRAIT_RACY) == 0 && !(row->metric[FM_METRIC_DISTINCT_IMAGES] > 1);
+    return ((pair->base->look.traits | pair->now->look.traits) & FM_TRAIT_RACY) != 0;
 }
 
-/* The error of an image that is told with its rounding; others follow from these. */
-static fm_status compare_error(fm_changes *changes, const fm_error_kind *kind, const fm_pair *pair,
-                               fm_error *err)
+static bool is_unsteady(const fm_case_row *row)
 {
-    const double base = error_kind_of(kind, pair->base), now = error_kind_of(kind, pair->now);
-    return fabs(base - now) <= kind->exact_below
-               ? FM_OK
-               : compare_number(changes, fm_metrics[kind->metric].name,
-                                pair->base->metric[kind->metric], pair->now->metric[kind->metric],
-                                err);
+    return row->metric[FM_METRIC_DISTINCT_IMAGES] > 1;
+}
+
+/* Whether fragments and errors are to be those of BASE: a method that became unsteady is not
+ * excused by that. */
+static bool is_to_repeat(const fm_pair *pair)
+{
+    return !is_racy(pair) && !is_unsteady(pair->base);
+}
+
+static bool have_column(const fm_result_files *base, const fm_result_files *now, const char *name)
+{
+    return table_column(base->summary, name) != FM_TABLE_NO_COLUMN &&
+           table_column(now->summary, name) != FM_TABLE_NO_COLUMN;
+}
+
+/* A cell that is empty in one file alone differs; what one file has no cell for is not known. */
+static bool differ(double base, double now, bool have_cells)
+{
+    if (isnan(base) || isnan(now))
+        return have_cells && isnan(base) != isnan(now);
+    return base != now;
+}
+
+/* Numbers of an error that is rounded alike are equal. */
+static bool is_rounding(const fm_error_kind *kind, const fm_pair *pair)
+{
+    return fabs(error_kind_of(kind, pair->base) - error_kind_of(kind, pair->now)) <=
+           kind->exact_below;
 }
 
 static fm_status compare_metric(fm_changes *changes, fm_metric metric, const fm_pair *pair,
@@ -87,12 +107,30 @@ static fm_status compare_metric(fm_changes *changes, fm_metric metric, const fm_
     const fm_error_kind *kind = error_kind_by_metric(metric);
     const bool is_number = info->range != FM_RANGE_ERROR && info->range != FM_RANGE_LEVEL;
     if (info->of != FM_OF_CASE || info->is_measured || (!is_number && kind == NULL) ||
-        (!is_of_scene_or_memory(metric) && !(repeats(pair->base) && repeats(pair->now))))
+        (!is_of_scene_or_memory(metric) && !is_to_repeat(pair)) ||
+        (kind != NULL && is_rounding(kind, pair)))
         return FM_OK;
-    if (kind != NULL)
-        return compare_error(changes, kind, pair, err);
-    return compare_number(changes, info->name, case_metric(base, pair->base, info->name),
-                          case_metric(now, pair->now, info->name), err);
+    const double one = case_metric(base, pair->base, info->name);
+    const double other = case_metric(now, pair->now, info->name);
+    return differ(one, other, have_column(base, now, info->name))
+               ? add_numbers(changes, info->name, one, other, err)
+               : FM_OK;
+}
+
+/* All frames drew one image in one run, and not in the other; and what that cost. */
+static fm_status compare_steadiness(fm_changes *changes, const fm_pair *pair, fm_error *err)
+{
+    const double *base = pair->base->metric, *now = pair->now->metric;
+    if (is_racy(pair) || is_unsteady(pair->base) == is_unsteady(pair->now) ||
+        isnan(base[FM_METRIC_DISTINCT_IMAGES]) || isnan(now[FM_METRIC_DISTINCT_IMAGES]))
+        return FM_OK;
+    const fm_status status =
+        add_numbers(changes, fm_metrics[FM_METRIC_DISTINCT_IMAGES].name,
+                    base[FM_METRIC_DISTINCT_IMAGES], now[FM_METRIC_DISTINCT_IMAGES], err);
+    const double one = base[FM_METRIC_FRAMES_RMSE_MAX], other = now[FM_METRIC_FRAMES_RMSE_MAX];
+    return status == FM_OK && differ(one, other, false)
+               ? add_numbers(changes, fm_metrics[FM_METRIC_FRAMES_RMSE_MAX].name, one, other, err)
+               : status;
 }
 
 fm_status exact_compare(fm_changes *changes, const fm_pair *pair, const fm_result_files *base,
@@ -108,6 +146,8 @@ fm_status exact_compare(fm_changes *changes, const fm_pair *pair, const fm_resul
     const bool is_measured = pair->base->is_measured && pair->now->is_measured;
     for (int i = 0; i < FM_METRIC_COUNT && status == FM_OK && is_measured; i++)
         status = compare_metric(changes, (fm_metric)i, pair, base, now, err);
+    if (status == FM_OK && is_measured)
+        status = compare_steadiness(changes, pair, err);
     if (status != FM_OK)
         exact_free(changes);
     return status;
@@ -118,8 +158,7 @@ fm_status exact_add_image(fm_changes *changes, const fm_pair *pair, const char *
 {
     const bool is_one_driver = pair->base->code_driver[0] != '\0' &&
                                strcmp(pair->base->code_driver, pair->now->code_driver) == 0;
-    return is_one_driver && repeats(pair->base) && repeats(pair->now) && base[0] != '\0' &&
-                   now[0] != '\0'
+    return is_one_driver && is_to_repeat(pair) && base[0] != '\0' && now[0] != '\0'
                ? compare_text(changes, "image", base, now, err)
                : FM_OK;
 }

@@ -21,8 +21,10 @@ typedef struct fm_changes {
  * in both each number that is no measurement (model/metrics.h): bytes, counts of fragments, the
  * truth's digest, modelled cycles and energy, and errors, which differ if they do by more than
  * rounding (tradeoff/error_kind.h). Of methods that are racy, or whose frames differed from one
- * another, only memory and the scene are compared: their fragments and errors need not repeat.
- * A number that one file has no column for is not compared. FM_NO_MEMORY. The caller frees. */
+ * another in BASE already, only memory and the scene are compared: their fragments and errors need
+ * not repeat. If frames of another method differ in one run alone, that is a change: of
+ * distinct_images, and frames_rmse_max. A number that one file has no column for is not compared; a
+ * cell that is empty in one file alone is a change. FM_NO_MEMORY. The caller frees. */
 fm_status exact_compare(fm_changes *changes, const fm_pair *pair, const fm_result_files *base,
                         const fm_result_files *now, fm_error *err);
 /* Adds that the picture is another, told by its hash (images.h; "": not known). Pictures of two

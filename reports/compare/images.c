@@ -11,9 +11,15 @@
 /* Of a case that drew more than one picture; no hash is like it. */
 static const char several[FM_IMAGE_HASH_BYTES] = "several";
 
+static bool is_hash(const char *text)
+{
+    return text != NULL && strlen(text) == FM_IMAGE_HASH_BYTES - 1 &&
+           strspn(text, "0123456789abcdef") == FM_IMAGE_HASH_BYTES - 1;
+}
+
 static void add_hash(char hash[FM_IMAGE_HASH_BYTES], const char *drawn)
 {
-    if (drawn == NULL || strlen(drawn) >= FM_IMAGE_HASH_BYTES || strcmp(hash, drawn) == 0)
+    if (!is_hash(drawn) || strcmp(hash, drawn) == 0)
         return;
     memcpy(hash, hash[0] == '\0' ? drawn : several, strlen(hash[0] == '\0' ? drawn : several) + 1);
 }
@@ -36,7 +42,8 @@ static void take_line(fm_images *images, const fm_result_files *results, const j
         add_hash(images->hashes[index], json_string_value(json_array_get(drawn, i)));
 }
 
-static void take_lines(fm_images *images, const fm_result_files *results, FILE *journal)
+static fm_status take_lines(fm_images *images, const fm_result_files *results, FILE *journal,
+                            const char *path, fm_error *err)
 {
     char *text = NULL;
     size_t room = 0;
@@ -46,10 +53,14 @@ static void take_lines(fm_images *images, const fm_result_files *results, FILE *
         take_line(images, results, line);
         json_decref(line);
     }
+    const int why = errno; /* of a line that ended before the file did */
     free(text);
     for (size_t i = 0; i < results->count; i++)
         if (strcmp(images->hashes[i], several) == 0)
             images->hashes[i][0] = '\0';
+    return feof(journal)
+               ? FM_OK
+               : fm_fail(err, why == ENOMEM ? FM_NO_MEMORY : FM_IO, "%s: %s", path, strerror(why));
 }
 
 fm_status images_read(fm_images *images, const fm_result_files *results, fm_error *err)
@@ -65,9 +76,9 @@ fm_status images_read(fm_images *images, const fm_result_files *results, fm_erro
     FILE *journal = fopen(path, "rbe");
     if (journal == NULL)
         return errno == ENOENT ? FM_OK : fm_fail(err, FM_IO, "%s: %s", path, strerror(errno));
-    take_lines(images, results, journal);
+    const fm_status taken = take_lines(images, results, journal, path, err);
     fclose(journal);
-    return FM_OK;
+    return taken;
 }
 
 void images_free(fm_images *images)

@@ -13,8 +13,8 @@ typedef struct fm_images {
 } fm_images;
 
 /* Reads DIRECTORY/journal.jsonl, if it is there; its damaged lines are left out, which `missing` of
- * the results tells. FM_IO: it cannot be read; FM_INVALID: too long a path; FM_NO_MEMORY. The
- * caller frees. */
+ * the results tells, and so is what is no hash. FM_IO: it cannot be read; FM_INVALID: too long a
+ * path; FM_NO_MEMORY. The caller frees. */
 fm_status images_read(fm_images *images, const fm_result_files *results, fm_error *err);
 void images_free(fm_images *images);
 

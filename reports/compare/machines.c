@@ -63,8 +63,9 @@ static const fm_device_info *find_device(const fm_provenance *manifest, const ch
     return NULL;
 }
 
-/* Devices that both used; one that only one used has no case in both. */
-static void add_devices(fm_machines *machines, const fm_provenance *base, const fm_provenance *now)
+/* Devices that both manifests list. */
+static void add_listed_devices(fm_machines *machines, const fm_provenance *base,
+                               const fm_provenance *now)
 {
     for (size_t i = 0; i < base->device_count; i++) {
         const fm_device_info *one = &base->devices[i];
@@ -78,6 +79,40 @@ static void add_devices(fm_machines *machines, const fm_provenance *base, const 
     }
 }
 
+/* What a row was measured on; a row of an older program may leave it to the manifest. */
+static const char *device_name(const fm_result_files *run, const fm_case_row *row)
+{
+    if (row->device_name[0] != '\0')
+        return row->device_name;
+    const fm_device_info *listed = find_device(run->manifest, row->device);
+    return listed != NULL ? listed->name : "";
+}
+
+static bool is_told(const fm_machines *machines, const char *base, const char *now)
+{
+    for (size_t i = 0; i < machines->count; i++)
+        if (strcmp(machines->differing[i].base, base) == 0 &&
+            strcmp(machines->differing[i].now, now) == 0)
+            return true;
+    return false;
+}
+
+/* Devices of the cases that have times in both runs. A manifest lists devices when a run ends, so
+ * that rows know them where a manifest does not. */
+static void add_devices_of_cases(fm_machines *machines, const fm_machines_desc *of)
+{
+    for (size_t i = 0; i < of->pairs->count; i++) {
+        const fm_case_row *base = of->pairs->items[i].base, *now = of->pairs->items[i].now;
+        if (base == NULL || now == NULL || !base->is_measured || !now->is_measured ||
+            base->is_simulated)
+            continue;
+        const char *one = device_name(of->base, base), *other = device_name(of->now, now);
+        machines->is_same_machine &= one[0] != '\0' && strcmp(one, other) == 0;
+        if (!is_told(machines, one, other))
+            add(machines, base->device, "name", one, other);
+    }
+}
+
 /* Of "2026-01-31T12:00:00Z": known, and the same up to the T. */
 static bool is_same_day(const char *base, const char *now)
 {
@@ -88,9 +123,9 @@ static bool is_same_day(const char *base, const char *now)
     return a[0] != '\0' && strcmp(a, b) == 0;
 }
 
-fm_status machines_compare(fm_machines *machines, const fm_provenance *base,
-                           const fm_provenance *now, fm_error *err)
+fm_status machines_compare(fm_machines *machines, const fm_machines_desc *desc, fm_error *err)
 {
+    const fm_provenance *base = desc->base->manifest, *now = desc->now->manifest;
     static const char *const hardware[] = { "cpu", "cores", "memory_bytes" };
     static const char *const facts[] = { "fragmark", "git_commit", "launches", "frames",
                                          "warmup",   "validation", "no_timers" };
@@ -98,7 +133,8 @@ fm_status machines_compare(fm_machines *machines, const fm_provenance *base,
         HARDWARE = sizeof hardware / sizeof hardware[0],
         FACTS = sizeof facts / sizeof facts[0]
     };
-    const size_t most = base->machine_count + now->machine_count + 3 * base->device_count + FACTS;
+    const size_t most = base->machine_count + now->machine_count + 3 * base->device_count +
+                        desc->pairs->count + FACTS;
     *machines = (fm_machines){ .is_same_machine = true };
     machines->differing = calloc(most, sizeof *machines->differing);
     if (machines->differing == NULL)
@@ -107,7 +143,8 @@ fm_status machines_compare(fm_machines *machines, const fm_provenance *base,
         machines->is_same_machine &= is_same_hardware(hardware[i], machine_fact(base, hardware[i]),
                                                       machine_fact(now, hardware[i]));
     add_machine(machines, base, now);
-    add_devices(machines, base, now);
+    add_listed_devices(machines, base, now);
+    add_devices_of_cases(machines, desc);
     for (size_t i = 0; i < FACTS; i++)
         add(machines, "", facts[i], provenance_fact(base, facts[i]),
             provenance_fact(now, facts[i]));

@@ -42,7 +42,7 @@ static bool is_single_launch(const fm_case_row *result)
 }
 
 /* How far the times are to be trusted, before any of them is read. */
-static void add_trust(fm_text *page, const fm_result_files *results)
+static void add_trust(fm_text *page, const fm_result_files *results, bool is_untimed)
 {
     const char *first = NULL;
     size_t noisy = 0, timed = 0, single = 0;
@@ -65,7 +65,7 @@ static void add_trust(fm_text *page, const fm_result_files *results)
         text_add(page, ". Their times cannot be relied on: measure again on a quiet machine. More "
                        "launches help only where launches differ.</p>\n");
     }
-    if (single > 0)
+    if (single > 0 && !is_untimed)
         text_add(page,
                  "<p class=note>%zu of %zu timed cases had one launch: their times have no "
                  "interval, and decide no claim.</p>\n",
@@ -83,7 +83,7 @@ void page_open(fm_text *page, const char *title, size_t missing_count)
         missing_count, title, page_css);
 }
 
-void page_begin(fm_text *page, const fm_result_files *results)
+void page_begin(fm_text *page, const fm_result_files *results, bool is_untimed)
 {
     const fm_provenance *manifest = results->manifest;
     const size_t ok = count_outcome(results, FM_CASE_OK);
@@ -100,7 +100,7 @@ void page_begin(fm_text *page, const fm_result_files *results)
         html_add(page, results->missing.items[i]);
         text_add(page, ".</p>\n");
     }
-    add_trust(page, results);
+    add_trust(page, results, is_untimed);
     text_add(page, "<dl>\n");
     add_fact(page, "what", provenance_fact(manifest, "command"));
     for (size_t i = 0; i < manifest->device_count; i++) {
@@ -291,7 +291,20 @@ static bool any_stand_in(const fm_result_files *results)
     return false;
 }
 
-void page_add_notes(fm_text *page, const fm_result_files *results)
+static void add_launches(fm_text *page, const fm_result_files *results, bool is_untimed)
+{
+    if (is_untimed) {
+        add_note(page, results, is_timed_once,
+                 "One launch each, which is enough for figures without times. The times beside "
+                 "them have no interval.");
+        return;
+    }
+    add_note(page, results, has_few_launches, "Two launches only: the intervals are very wide.");
+    add_note(page, results, is_timed_once,
+             "One launch only: times have no interval, and claims on them stay unclear.");
+}
+
+void page_add_notes(fm_text *page, const fm_result_files *results, bool is_untimed)
 {
     text_add(page, "<h2 id=notes>Notes on these results</h2>\n");
     const size_t empty = page->length;
@@ -299,9 +312,7 @@ void page_add_notes(fm_text *page, const fm_result_files *results)
              "On Mesa's software rasterisers the fragments of one pixel never run at the same time "
              "on the raster feed, so that races cannot show here: use <code>--feed "
              "compute-adjacent</code> or a GPU.");
-    add_note(page, results, has_few_launches, "Two launches only: the intervals are very wide.");
-    add_note(page, results, is_timed_once,
-             "One launch only: times have no interval, and claims on them stay unclear.");
+    add_launches(page, results, is_untimed);
     add_note(page, results, is_noisy,
              "The machine was busy, or launches disagree: the column noisy of summary.csv says of "
              "each row why its times cannot be relied on.");

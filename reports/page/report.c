@@ -11,6 +11,15 @@
 #include "tradeoff/tradeoff_csv.h"
 #include "writer.h"
 
+/* All its figures say so. */
+static bool is_untimed(const fm_report_desc *desc)
+{
+    for (size_t i = 0; i < desc->figure_count; i++)
+        if (!desc->figures[i]->file.is_untimed)
+            return false;
+    return desc->figure_count > 0;
+}
+
 static fm_status write_sections(fm_writer *to, fm_text *tradeoff, fm_text *stability,
                                 const fm_report_desc *desc)
 {
@@ -21,7 +30,7 @@ static fm_status write_sections(fm_writer *to, fm_text *tradeoff, fm_text *stabi
         return status;
     fm_text_list papers = { 0 };
     paper_sections_names(&papers, &to->page, desc);
-    page_begin(&to->page, to->results);
+    page_begin(&to->page, to->results, is_untimed(desc));
     page_add_links(&to->page, &papers);
     status = paper_sections_add(to, &papers);
     if (status == FM_OK)
@@ -34,7 +43,7 @@ static fm_status write_sections(fm_writer *to, fm_text *tradeoff, fm_text *stabi
         status = stability_csv_add(stability, to->results, to->err);
     if (status == FM_OK)
         status = tradeoff_csv_add(tradeoff, &groups, desc->error, to->err);
-    page_add_notes(&to->page, to->results);
+    page_add_notes(&to->page, to->results, is_untimed(desc));
     page_add_guide(&to->page);
     page_add_machine(&to->page, to->results);
     page_end(&to->page);

@@ -10,21 +10,30 @@
 
 #include "fragmark/status.h"
 
-/* Why something cannot be done, where it is nobody's fault: one word of a refusal. Words and their
- * spelling: model/outcome.h. */
+/* Why something cannot be done, where it is nobody's fault: one word of a refusal
+ * (model/outcome.h). */
+/* clang-format off */
 typedef enum fm_reason {
-    FM_REASON_NONE,       /* no refusal */
-    FM_REASON_FEED,       /* not with input that arrives in this way */
-    FM_REASON_SETTING,    /* a value, or values together, that cannot be had */
-    FM_REASON_DEPTH_TEST, /* a test against depths as they are rasterised, which do not grow here */
-    FM_REASON_FEATURE,    /* the device lacks something, in any amount */
-    FM_REASON_DEVICE_LIMIT, /* the device has it, but not so large or so many */
-    FM_REASON_LOOPS,        /* the driver ends loops before they are done */
-    FM_REASON_SUITE_LIMIT,  /* this program, or a library in it, counts no further */
+    FM_REASON_NONE,         /* no refusal */
+    FM_REASON_FEED,         /* not with input that arrives in this way: the method, the device or
+                               what is drawn is not made for it */
+    FM_REASON_SETTING,      /* a value, of a key or of an option, alone or with others, that
+                               cannot be had */
+    FM_REASON_DEPTH_TEST,   /* a test against depths as they are rasterised, which do not grow
+                               here: the projection is reversed */
+    FM_REASON_FEATURE,      /* the device lacks something, in any amount: atomics, an interlock,
+                               a format */
+    FM_REASON_DEVICE_LIMIT, /* the device has it, but not so large or so many: bytes, samples,
+                               layers, bindings */
+    FM_REASON_LOOPS,        /* the driver would end, or has ended, loops before they are done */
+    FM_REASON_SUITE_LIMIT,  /* this program, or a library in it, counts no further: passes,
+                               resources, 2^32 fragments, iterations */
     FM_REASON_SCENE,        /* what is to be drawn cannot be read, or is not to be drawn so */
-    FM_REASON_DRIVER,       /* the driver or its compiler gives up, or there is none */
+    FM_REASON_DRIVER,       /* the driver or its compiler gives up, or refuses shaders that no
+                               method wrote, or there is none */
     FM_REASON_COUNT
 } fm_reason;
+/* clang-format on */
 
 typedef struct fm_error {
     fm_status status;

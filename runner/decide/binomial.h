@@ -10,7 +10,8 @@
 enum { BINOMIAL_TRIES = 1000000 };
 
 /* The chance of k or more of n tries, each of which succeeds with `chance`. 0 <= chance <= 1, n at
- * most BINOMIAL_TRIES. The relative error is below 1e-9, and below 1e-12 up to 1000 tries. */
+ * most BINOMIAL_TRIES. The relative error of tails above 1e-300 is below 1e-11, and below
+ * 1e-12 up to 1000 tries. */
 double binomial_at_least(uint32_t k, uint32_t n, double chance);
 
 /* The share k / n, with Clopper and Pearson's interval (1934, doi:10.1093/biomet/26.4.404): all

@@ -78,7 +78,7 @@ static fm_status remove_file(const char *path, fm_error *err)
                : fm_fail(err, FM_IO, "%s: %s", path, strerror(errno));
 }
 
-/* The lower file comes last and goes first: where it is, the other one is, too. */
+/* Halves are no range (image_range_read), so that it is there at once, and goes at once. */
 fm_status image_range_write(const char *prefix, const fm_image_range *range, fm_error *err)
 {
     char low[FM_PATH_MAX_BYTES], high[FM_PATH_MAX_BYTES];
@@ -95,17 +95,22 @@ fm_status image_range_write(const char *prefix, const fm_image_range *range, fm_
     return status;
 }
 
+static bool is_absent(const char *path)
+{
+    return access(path, F_OK) != 0 && errno == ENOENT;
+}
+
 fm_status image_range_read(fm_image_range *range, const char *prefix, fm_error *err)
 {
-    char path[FM_PATH_MAX_BYTES];
+    char low[FM_PATH_MAX_BYTES], high[FM_PATH_MAX_BYTES];
     *range = (fm_image_range){ NULL, NULL };
-    fm_status status = range_path(path, prefix, FM_RANGE_LOW_ENDING, err);
-    if (status != FM_OK || (access(path, F_OK) != 0 && errno == ENOENT))
+    fm_status status = range_path(low, prefix, FM_RANGE_LOW_ENDING, err);
+    if (status == FM_OK)
+        status = range_path(high, prefix, FM_RANGE_HIGH_ENDING, err);
+    if (status != FM_OK || is_absent(low) || is_absent(high))
         return status;
-    status = image_read(&range->low, path, err);
+    status = image_read(&range->low, low, err);
     if (status == FM_OK)
-        status = range_path(path, prefix, FM_RANGE_HIGH_ENDING, err);
-    if (status == FM_OK)
-        status = image_read(&range->high, path, err);
+        status = image_read(&range->high, high, err);
     return status == FM_OK ? image_check_sizes(range->low, range->high, err) : status;
 }

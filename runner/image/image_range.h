@@ -23,7 +23,7 @@ void image_range_free(fm_image_range *range);
 /* Writes PREFIX and each ending (image_write). One of no image removes them. prefix "": nothing is
  * done. FM_IO: not written, or the path is too long. */
 fm_status image_range_write(const char *prefix, const fm_image_range *range, fm_error *err);
-/* Reads them; *range is of no image where the first of them is not there. FM_INVALID: damaged, or
+/* Reads them; *range is of no image where one of them is not there. FM_INVALID: damaged, or
  * of different sizes; FM_IO, FM_NO_MEMORY. image_range_free in any case. */
 fm_status image_range_read(fm_image_range *range, const char *prefix, fm_error *err);
 

@@ -14,7 +14,8 @@
  *   smoke: { n: 32 }           what --smoke changes in each block of `run`
  *   large: [blocks]            what --large measures too
  *   pictures: true             pictures and heat maps of its cases are kept; default false
- *   untimed: true              it is about errors or bytes: one launch is enough; default false
+ *   untimed: true              it is about errors or bytes: one launch is enough, and the report of
+ *                              such figures alone does not warn of it; default false
  *   charts: ...                in the report's order: reports/read/paper_figure.h; without them,
  *                              those that every report has
  *   paper_points: ...          the values that the paper prints: there too

@@ -29,16 +29,9 @@ bool case_status_parse(fm_case_status *status, const char *name);
 /* Launched in the next round? Only what measured something, or had no turn yet, is. */
 bool case_status_continues(fm_case_status status);
 
-/* Why a case is FM_CASE_NOT_SUPPORTED, in a word: column `reason` of summary.csv. Other statuses
- * say it themselves, and have none. feed          the method or the device does not take it, or the
- * scene is not made for it setting       the value of a key or of an option, alone or with others,
- * cannot be had with it depth-test    a pass tests the rasterised depth, and the projection is
- * reversed feature       the device lacks what the method needs: atomics, an interlock, a format,
- * ... device-limit  the device has it, but not so large or so many: bytes, samples, layers,
- * bindings loops         the driver would end, or has ended, loops that need more iterations
- *   suite-limit   fragmark's own: passes, resources, 2^32 fragments, iterations
- *   scene         its file cannot be read, or is not to be drawn so
- *   driver        its compiler gives up, or it refuses fragmark's own shaders */
+/* Why a case is FM_CASE_NOT_SUPPORTED, in a word: column `reason` of summary.csv. What each means
+ * stands beside fm_reason (base/error.h); its word is the end of its name, with hyphens:
+ * "depth-test". Other statuses say it themselves, and have none. */
 const char *case_reason_name(fm_reason reason); /* FM_REASON_NONE: "" */
 /* "" is FM_REASON_NONE. false: no such word, or NULL; then *nearest is a word that is meant
  * perhaps, or NULL; nearest may be NULL. */

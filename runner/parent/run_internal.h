@@ -126,9 +126,6 @@ fm_status run_take_range(const run_state *run, size_t case_index, uint32_t launc
 /* run_step.c */
 /* The case is to be launched, and not finished. */
 bool run_is_pending(const run_state *run, size_t case_index);
-/* Writes the end of a launch into journal, tables and, if it was the case's last, the summary. */
-fm_status run_end_launch(run_state *run, size_t case_index, uint32_t launch, json_t *answer,
-                         fm_error *err);
 /* Captures a truth, unless an interrupted run left it. Where it cannot be had, all its cases end as
  * it did. FM_IO: a fault of the run's own files. */
 fm_status run_capture_truth(run_state *run, size_t job, fm_error *err);

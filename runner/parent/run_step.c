@@ -14,13 +14,13 @@ bool run_is_pending(const run_state *run, size_t case_index)
            !results_is_finished(run->results, case_index);
 }
 
-fm_status run_end_launch(run_state *run, size_t case_index, uint32_t launch, json_t *result,
-                         fm_error *err)
+/* Writes the end of a launch, whose code fits, into journal, tables and, if it was the case's last,
+ * the summary. */
+static fm_status end_launch(run_state *run, size_t case_index, uint32_t launch, json_t *result,
+                            fm_error *err)
 {
     const char *id = run->plan->cases[case_index].id;
-    fm_status status = run_fit_code(run, case_index, result, err);
-    if (status == FM_OK)
-        status = journal_write(run->journal, FM_JOURNAL_END, id, launch, result, err);
+    fm_status status = journal_write(run->journal, FM_JOURNAL_END, id, launch, result, err);
     if (status == FM_OK)
         status = results_add(run->results, case_index, launch, result, err);
     if (status == FM_OK && results_is_finished(run->results, case_index))
@@ -42,7 +42,9 @@ static fm_status fail_truth(run_state *run, size_t job, const json_t *result, fm
         while (run->results->cases[i].launches[launch].is_done)
             launch++;
         json_t *verdict = answer_make(answer_status(result), answer_reason(result), message);
-        status = run_end_launch(run, i, launch, verdict, err);
+        status = run_fit_code(run, i, verdict, err);
+        if (status == FM_OK)
+            status = end_launch(run, i, launch, verdict, err);
         json_decref(verdict);
     }
     return status;
@@ -110,22 +112,23 @@ fm_status run_capture_truth(run_state *run, size_t job, fm_error *err)
 }
 
 /* What a launch left goes into images/ before it is told that it ended: a run that is killed
- * between the two measures it again. */
+ * between the two measures it again. Of other code it is not the row's, and is to be done again. */
 static fm_status end_measure(run_state *run, size_t case_index, uint32_t launch, json_t *answer,
                              bool is_unfinished, fm_error *err)
 {
     const char *id = run->plan->cases[case_index].id;
-    const bool is_counted = !is_unfinished && case_status_continues(answer_status(answer));
-    fm_status status = run_take_range(run, case_index, launch, is_counted, err);
-    if (status != FM_OK || is_unfinished) {
-        const fm_status stopped = journal_write(run->journal, FM_JOURNAL_STOP, id, launch, NULL,
-                                                status == FM_OK ? err : NULL);
-        return status == FM_OK ? stopped : status;
-    }
-    status = run_end_launch(run, case_index, launch, answer, err);
-    if (run->is_other_code) /* the launch is not the row's, and is to be done again */
-        journal_write(run->journal, FM_JOURNAL_STOP, id, launch, NULL, NULL);
-    return status;
+    fm_status status = is_unfinished ? FM_OK : run_fit_code(run, case_index, answer, err);
+    const bool is_kept = status == FM_OK && !is_unfinished;
+    const bool is_counted = is_kept && case_status_continues(answer_status(answer));
+    const fm_status taken =
+        run_take_range(run, case_index, launch, is_counted, status == FM_OK ? err : NULL);
+    if (status == FM_OK)
+        status = taken;
+    if (status == FM_OK && is_kept)
+        return end_launch(run, case_index, launch, answer, err);
+    const fm_status stopped = journal_write(run->journal, FM_JOURNAL_STOP, id, launch, NULL,
+                                            status == FM_OK ? err : NULL);
+    return status == FM_OK ? stopped : status;
 }
 
 fm_status run_measure(run_state *run, size_t case_index, uint32_t launch, fm_error *err)

@@ -2,6 +2,7 @@
  * of this launch and of earlier ones, is kept until the frames are over, and compared with truth.
  */
 #include <math.h>
+#include <stdlib.h>
 
 #include "measure_internal.h"
 #include "truth/reference.h"
@@ -26,17 +27,20 @@ fm_status measure_read_image(fm_image **image, fm_stage *stage, fm_error *err)
     return status;
 }
 
-void frame_images_begin(frame_images *images, fm_measurement *measurement,
-                        const fm_measure_desc *desc)
+fm_status frame_images_begin(frame_images *images, fm_measurement *measurement,
+                             const fm_measure_desc *desc, fm_error *err)
 {
     const fm_method_desc *method = desc->method->method;
     const uint64_t bytes = (uint64_t)desc->truth->width_px * desc->truth->height_px * 16;
-    const uint64_t fit = KEPT_BYTES / bytes;
-    *images = (frame_images){ .desc = desc };
-    images->most = fit > FRAME_IMAGES_KEPT ? FRAME_IMAGES_KEPT : fit > 1 ? (uint32_t)fit : 1;
+    const uint64_t fit = KEPT_BYTES / bytes, most = fit < desc->frames ? fit : desc->frames;
+    *images = (frame_images){ .desc = desc, .most = most > 1 ? (uint32_t)most : 1 };
+    images->kept = calloc(images->most, sizeof *images->kept);
+    if (images->kept == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "no memory for %u images", images->most);
     measurement->may_differ =
         (method->traits & FM_TRAIT_EXACT) != 0 &&
         truth_tied_pixels(desc->truth, measure_wanted(method, desc->method->settings->k)) > 0;
+    return FM_OK;
 }
 
 static bool is_among(const uint64_t *hashes, size_t count, uint64_t hash)
@@ -72,26 +76,39 @@ static fm_status compare_kept(fm_measurement *measurement, const reference_image
     return status;
 }
 
+static fm_status compare(frame_images *images, fm_measurement *measurement,
+                         const reference_images *kept, fm_error *err)
+{
+    const fm_measure_desc *desc = images->desc;
+    double apart = 0;
+    fm_status status = FM_OK;
+    if (measurement->may_differ)
+        status = reference_distance(&apart, kept, err);
+    measurement->frames_beyond = fmax(measurement->frames_beyond, apart);
+    const bool is_left_to_check = desc->check && measurement->distinct_images == 1;
+    if (status == FM_OK && !is_left_to_check)
+        status = compare_kept(measurement, kept, desc->method->settings->exposure, err);
+    return status;
+}
+
 static fm_status settle(frame_images *images, fm_measurement *measurement, fm_error *err)
 {
     const fm_measure_desc *desc = images->desc;
-    fm_image *pictures[FRAME_IMAGES_KEPT];
+    if (images->count == 0)
+        return FM_OK;
+    fm_image **pictures = calloc(images->count, sizeof *pictures);
+    if (pictures == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "no memory for %u images", images->count);
+    for (uint32_t i = 0; i < images->count; i++)
+        pictures[i] = images->kept[i].image;
     const reference_images kept = { .truth = desc->truth,
                                     .wanted = measure_k(measurement, desc),
                                     .traits = desc->method->method->traits,
                                     .rounding = measure_rounding(desc),
                                     .images = pictures,
                                     .count = images->count };
-    double apart = 0;
-    fm_status status = FM_OK;
-    for (uint32_t i = 0; i < images->count; i++)
-        pictures[i] = images->kept[i].image;
-    if (kept.count > 0 && measurement->may_differ)
-        status = reference_distance(&apart, &kept, err);
-    measurement->frames_beyond = fmax(measurement->frames_beyond, apart);
-    const bool is_left_to_check = desc->check && measurement->distinct_images == 1;
-    if (status == FM_OK && kept.count > 0 && !is_left_to_check)
-        status = compare_kept(measurement, &kept, desc->method->settings->exposure, err);
+    const fm_status status = compare(images, measurement, &kept, err);
+    free(pictures);
     return status;
 }
 
@@ -145,6 +162,8 @@ fm_status frame_images_end(frame_images *images, fm_measurement *measurement, fm
 void frame_images_free(frame_images *images)
 {
     drop_kept(images);
+    free(images->kept);
+    images->kept = NULL;
     image_destroy(images->expected.image);
     images->expected.image = NULL;
 }

@@ -26,21 +26,23 @@ typedef struct frame_image {
 } frame_image;
 
 /* Images of timed frames that wait for their comparison with truth. */
-enum { FRAME_IMAGES_KEPT = 16 };
 typedef struct frame_images {
     const fm_measure_desc *desc;
-    frame_image kept[FRAME_IMAGES_KEPT];
-    uint32_t count, most;
+    frame_image *kept;    /* [count]; owned */
+    uint32_t count, most; /* most: all frames', or as many as memory is given for */
     frame_image expected; /* what the last warm-up frame drew: where timed frames draw the same,
                              nothing has to be read between them */
     uint64_t last;        /* hash of the last timed frame's image */
 } frame_images;
 
-void frame_images_begin(frame_images *images, fm_measurement *measurement,
-                        const fm_measure_desc *desc);
+/* FM_NO_MEMORY. frame_images_free also after a failure. */
+fm_status frame_images_begin(frame_images *images, fm_measurement *measurement,
+                             const fm_measure_desc *desc, fm_error *err);
 /* Takes the image of the warm-up frame that just ended. */
 fm_status frame_images_expect(frame_images *images, fm_instance *method, fm_error *err);
-/* Hashes the image of the frame that just ended, and keeps it if it is new. */
+/* Hashes the image of the frame that just ended, and keeps it if it is new. Only where there is no
+ * room for it are those that wait compared first, which disturbs the next frame: a walk over all of
+ * truth. */
 fm_status frame_images_add(frame_images *images, fm_measurement *measurement, fm_instance *method,
                            fm_error *err);
 /* After the last frame: compares those that wait with truth, and fills the measurement's image. A

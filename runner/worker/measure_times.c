@@ -94,9 +94,8 @@ static fm_status take_samples(fm_measurement *measurement, const launch_pair *pa
     const fm_measure_desc *desc = pair->desc;
     frame_images images;
     fm_sample ignored;
-    fm_status status = FM_OK;
     bool is_long = false;
-    frame_images_begin(&images, measurement, desc);
+    fm_status status = frame_images_begin(&images, measurement, desc, err);
     for (uint32_t i = 0; i < desc->warmup && status == FM_OK && !is_long; i++) {
         status = sample_once(&ignored, measurement, pair, false, err);
         is_long = i > 0 && ignored.wall_ns > MEASURE_LONG_FRAME_NS;

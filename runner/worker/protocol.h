@@ -70,10 +70,12 @@ typedef struct fm_request {
     const fm_settings *settings;
     const fm_choice *choices; /* of the method's options; its first value for what is missing */
     size_t choice_count;
-    const char *truth;            /* path of the truth file */
-    const char *image;            /* path of the image to be written; "": none */
-    const char *range;            /* prefix of image/image_range.h; "" or NULL: none */
-    const uint64_t *known_images; /* [known_count]: hashes of what earlier launches drew */
+    const char *truth; /* path of the truth file */
+    const char *image; /* path of the image to be written; "": none */
+    const char *range; /* prefix of image/image_range.h; "" or NULL: none */
+    /* [known_count]: hashes of what earlier launches drew. Of very many only the first are written:
+     * the others are compared again, which gives the same. */
+    const uint64_t *known_images;
     size_t known_count;
     const char *keep[KEPT_KIND_COUNT]; /* the same for files of kept_file.h; NULL is "" */
     bool check, validation, no_timers;

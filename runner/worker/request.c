@@ -5,7 +5,8 @@
 #include "base/text.h"
 #include "protocol_json.h"
 
-enum { REQUEST_MAX_BYTES = 1 << 20 };
+/* A known image takes 22 bytes: most of them leave 320 KiB for paths and settings. */
+enum { REQUEST_MAX_BYTES = 1 << 20, REQUEST_KNOWN_MOST = 1 << 15 };
 static const char truth_job[] = "truth", mesh_job[] = "mesh", device_job[] = "device",
                   measure_job[] = "measure";
 
@@ -53,6 +54,8 @@ static bool add_keep(json_t *object, const fm_request *request)
 
 fm_status request_write(const char *path, const fm_request *request, fm_error *err)
 {
+    const size_t known = request->known_count < REQUEST_KNOWN_MOST ? request->known_count
+                                                                   : (size_t)REQUEST_KNOWN_MOST;
     json_t *object = json_pack(
         "{s:s, s:s, s:s, s:s, s:s, s:b, s:b, s:s, s:o, s:o, s:s, s:i, s:b, s:s, s:s, s:o}", "job",
         job_of(request), "plugin", request->plugin, "floor", request->floor, "common",
@@ -61,7 +64,7 @@ fm_status request_write(const char *path, const fm_request *request, fm_error *e
         settings_json(request->settings), "options", options_json(request), "truth", request->truth,
         "launch", (int)request->launch, "check", (int)request->check, "image", request->image,
         "range", request->range != NULL ? request->range : "", "known_images",
-        json_hashes(request->known_images, request->known_count));
+        json_hashes(request->known_images, known));
     const bool is_whole = add_keep(object, request);
     char *text = is_whole ? json_dumps(object, JSON_INDENT(1)) : NULL;
     const fm_status status =

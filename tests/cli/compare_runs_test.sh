@@ -90,5 +90,7 @@ cp -r "$out/new" "$out/damaged"
 echo 'x,y' >>"$out/damaged/summary.csv"
 compare 8 "$out/base" "$out/damaged"
 says 'damaged/summary.csv:7'
-"$fragmark" compare --help | grep -q 'Exit codes: 0 compared' || fail "no help"
+"$fragmark" compare --help >"$out/said"
+says 'Exit codes: 0 compared'
+tr -s ' \n' ' ' <"$out/said" | grep -qF 'Two launches are judged' || fail "no word of two launches: $(cat "$out/said")"
 echo "compare_runs_test: passed"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # linkage_test.sh PROGRAM [REPORT-PROGRAM]: fragmark links neither VTK nor OpenImageIO, whose loading
-# alone costs 0.3 to 0.8 s a start, and a run starts it hundreds of times. fragmark-report links of the
-# runner base, decide, image and model alone: no function of another room is in it, and no driver.
+# alone costs 0.3 to 0.8 s a start, and a run starts it hundreds of times. fragmark-report may link of
+# the runner base, decide, image and model alone: no function of another room is in it, and no driver.
 set -euo pipefail
 if linked=$(ldd "$1" | grep -E 'libvtk|libOpenImageIO'); then
     printf '%s links what only fragmark-report may:\n%s\n' "$1" "$linked"

@@ -38,6 +38,36 @@ static void tails_equal_the_sum_of_products(void **state)
             }
 }
 
+/* Exact to all digits shown: 60 digits of decimal arithmetic. */
+static void tails_of_many_tries_equal_exact_sums(void **state)
+{
+    static const struct {
+        uint32_t k, n;
+        double chance, tail;
+    } rows[] = {
+        { 101051, 1000000, 0.1, 0.00023553874136951741 },
+        { 100500, 1000000, 0.1, 0.048034782205402748 },
+        { 99000, 1000000, 0.1, 0.99958038248443049 },
+        { 510000, 1000000, 0.5, 2.7721816438496123e-89 },
+        { 1, 1000000, 1e-06, 0.63212074276835484 },
+        { 2, 1000000, 1e-06, 0.26424111765708469 },
+        { 1, 1000000, 1e-12, 9.9999950000066666e-07 },
+        { 30, 1000000, 1e-06, 1.4324990305860825e-33 },
+        { 999999, 1000000, 0.999999, 0.73575888233233666 },
+        { 999990, 1000000, 0.99999, 0.58303975019972187 },
+        { 1000000, 1000000, 0.99995, 1.9263403366055454e-22 },
+        { 18000, 1000000, 0.012, 0 },
+        { 1050, 10000, 0.1, 0.05023783483390331 },
+        { 2000, 100000, 0.015, 1.8426616241370758e-35 },
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        const double tail = binomial_at_least(rows[i].k, rows[i].n, rows[i].chance);
+        if (!(fabs(tail - rows[i].tail) <= 1e-11 * rows[i].tail))
+            fail_msg("%u of %u, %g: %.17g", rows[i].k, rows[i].n, rows[i].chance, tail);
+    }
+}
+
 static void tails_of_certain_chances_are_certain(void **state)
 {
     (void)state;
@@ -114,6 +144,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tails_equal_the_sum_of_products),
+        cmocka_unit_test(tails_of_many_tries_equal_exact_sums),
         cmocka_unit_test(tails_of_certain_chances_are_certain),
         cmocka_unit_test(intervals_are_those_that_r_prints),
         cmocka_unit_test(interval_of_none_ends_at_the_root_of_the_tail),

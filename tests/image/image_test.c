@@ -361,6 +361,11 @@ static void a_range_comes_back_from_its_files_and_goes(void **state)
     assert_int_not_equal(access(path, F_OK), 0);
     assert_int_equal(image_range_read(&read, prefix, NULL), FM_OK);
     assert_null(read.low);
+    assert_int_equal(image_range_write(prefix, &range, NULL), FM_OK);
+    assert_int_equal(unlink(path), 0); /* half of it is none */
+    assert_int_equal(image_range_read(&read, prefix, NULL), FM_OK);
+    assert_null(read.low);
+    assert_int_equal(image_range_write(prefix, &read, NULL), FM_OK);
     assert_int_equal(image_range_write("/nowhere/range", &range, NULL), FM_IO);
     unlink(prefix);
     image_destroy(low);

@@ -8,11 +8,13 @@
 #include <cmocka.h>
 
 #include "code/code.h"
+#include "image/image_range.h"
 #include "kit/fake_plan.h"
 #include "parent/run.h"
 
 /* $2 is the request, $3 the result. Answers have the code in the file `code`, if there is one; the
- * one in `later` from the second launch on. */
+ * one in `later` from the second launch on. These leave the range in `range.low.rgba32f` and
+ * `range.high.rgba32f`, if there is one. */
 static const char worker_script[] =
     "#!/bin/sh\n"
     "here=$(dirname \"$0\")\n"
@@ -27,6 +29,11 @@ static const char worker_script[] =
     "[ $job != device ] || [ ! -e \"$here/no-device\" ] || {\n"
     "    echo '{\"status\":\"not_supported\",\"reason\":\"driver\",\"message\":\"no driver\"}' "
     ">\"$3\"; exit 0; }\n"
+    "range=$(sed -n 's,.*\"range\": \"\\(..*\\)\".*,\\1,p' \"$2\")\n"
+    "[ \"$launch\" = 0 ] || [ -z \"$range\" ] || for end in low high; do\n"
+    "    [ ! -e \"$here/range.$end.rgba32f\" ] ||\n"
+    "        cp \"$here/range.$end.rgba32f\" \"$range.$end.rgba32f\"\n"
+    "done\n"
     "[ ! -e \"$here/stop\" ] || [ \"$launch\" = 0 ] || { kill -TERM $FAKE_PARENT; sleep 9; }\n"
     "{ echo '{\"status\":\"ok\",\"message\":\"\",\"image_hashes\":[\"00000000000000aa\"],'\n"
     "  [ ! -e \"$here/$code\" ] || { echo '\"code\":'; cat \"$here/$code\"; echo ,; }\n"
@@ -186,6 +193,49 @@ static void code_that_changes_under_a_run_ends_it(void **state)
     fake_close(&fake);
 }
 
+static void write_range(const fake_plan *fake)
+{
+    char path[96];
+    fm_image *image = NULL;
+    fm_image_range range = { NULL, NULL };
+    snprintf(path, sizeof path, "%s/range", fake->folder);
+    assert_int_equal(image_create(&image, 2, 1, NULL), FM_OK);
+    assert_int_equal(image_range_add(&range, image, NULL), FM_OK);
+    assert_int_equal(image_range_write(path, &range, NULL), FM_OK);
+    image_range_free(&range);
+    image_destroy(image);
+}
+
+static bool has_file(const fake_plan *fake, const char *folder, const char *ending)
+{
+    char path[128];
+    snprintf(path, sizeof path, "%s/out/%s/%s%s", fake->folder, folder, fake->cases[0].id, ending);
+    return access(path, F_OK) == 0;
+}
+
+/* What it drew is not the row's, either. */
+static void a_launch_of_other_code_leaves_no_range(void **state)
+{
+    (void)state;
+    fake_plan fake;
+    open_with_worker(&fake, 2);
+    write_range(&fake);
+    write_code(&fake, "code", "00000000000000d1");
+    run_well(&fake, false);
+    assert_true(has_file(&fake, "images", FM_RANGE_LOW_ENDING));
+    assert_false(has_file(&fake, "work", FM_RANGE_LOW_ENDING));
+    fake_close(&fake);
+    open_with_worker(&fake, 2);
+    write_range(&fake);
+    write_code(&fake, "code", "00000000000000d1");
+    write_code(&fake, "later", "00000000000000d2");
+    expect_other_code(&fake, "other code than the row began with: driver");
+    assert_false(has_file(&fake, "images", FM_RANGE_LOW_ENDING));
+    assert_false(has_file(&fake, "images", FM_RANGE_HIGH_ENDING));
+    assert_false(has_file(&fake, "work", FM_RANGE_LOW_ENDING));
+    fake_close(&fake);
+}
+
 static void driver_is_looked_at_once_and_only_where_a_row_has_one(void **state)
 {
     (void)state;
@@ -269,6 +319,7 @@ int main(void)
         cmocka_unit_test(fresh_run_measures_anew_and_forgets),
         cmocka_unit_test(journal_without_codes_is_other_code),
         cmocka_unit_test(code_that_changes_under_a_run_ends_it),
+        cmocka_unit_test(a_launch_of_other_code_leaves_no_range),
         cmocka_unit_test(driver_is_looked_at_once_and_only_where_a_row_has_one),
         cmocka_unit_test(device_that_cannot_be_opened_is_nobodys_fault),
         cmocka_unit_test(truth_of_other_code_is_captured_again),

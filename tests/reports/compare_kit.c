@@ -12,6 +12,8 @@ static const char usual[] =
     "distinct_images=1;code_program=p;code_driver=d;code_plugin=l;code_shaders=s";
 static const char usual_machine[] =
     "\"cpu\": \"EPYC\", \"cores\": 2, \"memory_bytes\": 1000000, \"kernel\": \"6.1\"";
+static const char usual_devices[] =
+    "{\"selector\": \"vulkan\", \"name\": \"llvmpipe\", \"driver\": \"Mesa\"}";
 
 /* The value of a cell in "name=value;name=value", with its length; NULL: not there. */
 static const char *find_cell(size_t *length, const char *cells, const char *name)
@@ -49,7 +51,9 @@ static void add_samples(fm_text *csv, const char *samples)
     unsigned launch;
     text_add(csv, "schema,run_id,case_id,launch,frame,metric,value,unit\n");
     for (const char *at = samples; at != NULL && *at != '\0'; at = strchr(at, '\n') + 1) {
-        assert_int_equal(sscanf(at, "%63s %u %63s %63s", id, &launch, metric, value), 4);
+        char line[256]; /* sscanf measures all that follows */
+        snprintf(line, sizeof line, "%.*s", (int)strcspn(at, "\n"), at);
+        assert_int_equal(sscanf(line, "%63s %u %63s %63s", id, &launch, metric, value), 4);
         text_add(csv, "1,r,%s,%u,0,%s,%s,ms\n", id, launch, metric, value);
     }
 }
@@ -78,10 +82,10 @@ void kit_open(kit_run *run, const kit_run_desc *desc)
     text_add(&manifest,
              "{\"schema\": 1, \"started\": \"%s\", \"machine\": {%s}, \"methods\": {"
              "\"a\": {\"defaults\": \"x=1 y=2\"}, \"racy\": {\"traits\": [\"racy\"]}}, "
-             "\"devices\": [{\"selector\": \"vulkan\", \"name\": \"llvmpipe\", \"driver\": "
-             "\"Mesa\"}]}",
+             "\"devices\": [%s]}",
              desc->started != NULL ? desc->started : "2026-01-02T03:04:05Z",
-             desc->machine != NULL ? desc->machine : usual_machine);
+             desc->machine != NULL ? desc->machine : usual_machine,
+             desc->devices != NULL ? desc->devices : usual_devices);
     write_file(run->directory, "summary.csv", &summary);
     write_file(run->directory, "samples.csv", &samples);
     write_file(run->directory, "manifest.json", &manifest);

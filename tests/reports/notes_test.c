@@ -21,7 +21,7 @@ static void notes_of(fm_text *page, fm_case_status outcome, const char *message)
                         .is_ok = outcome == FM_CASE_OK,
                         .look = { .id = "kb", .title = "KB" } };
     const fm_result_files results = { .cases = &row, .count = 1 };
-    page_add_notes(page, &results);
+    page_add_notes(page, &results, false);
     assert_false(page->failed);
 }
 
@@ -71,7 +71,7 @@ static void different_pictures_are_noted_with_the_worst_of_each_method(void **st
     rows[1].metric[FM_METRIC_CAPTURED_FRAMES] = 4;
     const fm_result_files results = { .cases = rows, .count = 4 };
     fm_text page = { 0 };
-    page_add_notes(&page, &results);
+    page_add_notes(&page, &results, false);
     assert_non_null(strstr(page.bytes,
                            "the case with the worst frame: KB: 3 pictures in 15 frames, "
                            "rmse up to 0.5, 2 sets of fragments in 4 captured frames; "

@@ -62,6 +62,44 @@ static void request_comes_back_as_it_was_written(void **state)
     unlink(path);
 }
 
+/* However many images a case drew, its next launch can be asked for. */
+static void request_with_very_many_known_images_is_read(void **state)
+{
+    (void)state;
+    enum { KNOWN = 60000 };
+    static uint64_t known[KNOWN];
+    char path[] = "/tmp/fragmark-request-XXXXXX", deep[FM_PATH_MAX_BYTES];
+    fm_settings settings;
+    fm_read_request read = { 0 };
+    fm_error err = { 0 };
+    for (size_t i = 0; i < KNOWN; i++)
+        known[i] = i + 1;
+    memset(deep, 'x', sizeof deep - 1);
+    deep[sizeof deep - 1] = '\0';
+    settings_default(&settings);
+    const fm_request request = { .plugin = deep,
+                                 .floor = deep,
+                                 .common = deep,
+                                 .device = "vulkan:0",
+                                 .feed = "raster",
+                                 .settings = &settings,
+                                 .truth = deep,
+                                 .image = deep,
+                                 .range = deep,
+                                 .keep = { deep, deep, deep },
+                                 .known_images = known,
+                                 .known_count = KNOWN };
+    close(mkstemp(path));
+    assert_int_equal(request_write(path, &request, NULL), FM_OK);
+    if (request_read(&read, path, &err) != FM_OK)
+        fail_msg("%s", err.message);
+    assert_in_range(read.request.known_count, 10000, KNOWN);
+    assert_memory_equal(read.request.known_images, known,
+                        read.request.known_count * sizeof known[0]);
+    request_free(&read);
+    unlink(path);
+}
+
 #define REQUEST_KNOWING(known, job, launch, check, settings, options)                              \
     "{\"job\": " job ", \"plugin\": \"\", \"floor\": \"\", \"common\": \"\", \"device\": \"\", "   \
     "\"validation\": false, \"no_timers\": false, \"feed\": \"\", \"settings\": {" settings        \
@@ -190,6 +228,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(request_comes_back_as_it_was_written),
+        cmocka_unit_test(request_with_very_many_known_images_is_read),
         cmocka_unit_test(request_read_refuses_what_is_no_request),
         cmocka_unit_test(answer_of_the_runs_fault_gives_no_verdict),
         cmocka_unit_test(answer_carries_the_reason_of_a_refusal),
