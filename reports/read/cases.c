@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "cell_range.h"
 
 /* Where the texts and keys of a row are kept; its metrics are an array. */
 static const size_t fact_at[FM_FACT_COUNT] = {

@@ -7,7 +7,7 @@
 
 #include "claims_kit.h"
 #include "read/paper_figure.h"
-#include "read/table.h"
+#include "base/table.h"
 
 enum { FIGURES_MAX = 64, FAMILIES = 4, CLAIMS_MAX = 26 };
 

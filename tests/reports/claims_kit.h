@@ -19,7 +19,7 @@
 #include "image/image.h"
 #include "read/paper_figure.h"
 #include "read/result_files.h"
-#include "read/table.h"
+#include "base/table.h"
 
 /* One fabricated case. Its launches have one frame each, and spread over `noise`. */
 typedef struct fake {

@@ -5,7 +5,7 @@
 
 #include "draw/dumbbell.h"
 #include "page/comparison_page.h"
-#include "read/table.h"
+#include "base/table.h"
 
 /* One case of each kind, with texts that must be quoted. */
 static void make_mixed(kit_comparison *kit)

@@ -24,7 +24,7 @@
 #include "read/group.h"
 #include "read/paper_figure.h"
 #include "read/result_files.h"
-#include "read/table.h"
+#include "base/table.h"
 
 static const char header[] =
     "schema,case_id,status,message,method,method_version,device,device_name,feed,scene,width_px,"
