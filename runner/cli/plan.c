@@ -6,6 +6,7 @@
 #include "cli.h"
 #include "parent/mesh_look.h"
 #include "parent/progress.h"
+#include "plan/cost.h"
 
 enum { KEY_JSON = 512 };
 
@@ -40,32 +41,6 @@ static const struct argp argp = {
     .children = cli_spec_children,
     .help_filter = cli_axes_help,
 };
-
-/* Fragments of a scene before anything is drawn; a guess for meshes. */
-static double guessed_fragments(const fm_settings *settings)
-{
-    const double pixels = (double)settings->width_px * settings->height_px;
-    if (settings->generator != FM_GENERATOR_LAYERS)
-        return pixels * 4.0 * settings->instances;
-    return pixels * settings->pixel_density * settings->n * settings->fragment_probability;
-}
-
-/* Measured on two CPU cores with lavapipe: about 25 ns a fragment for a method's store, 7 ns for
- * the floor's, 200 ns to capture and check one; a GPU takes next to nothing. */
-double plan_seconds(const fm_plan *plan)
-{
-    double seconds = 0.0;
-    for (size_t i = 0; i < plan->count; i++) {
-        if (plan->cases[i].skip != NULL)
-            continue;
-        const fm_settings *settings = &plan->cases[i].settings;
-        const double fragments = guessed_fragments(settings);
-        const double frames = (double)settings->frames + settings->warmup;
-        seconds +=
-            plan_case_launches(plan, i) * (1.0 + frames * fragments * 32e-9) + fragments * 200e-9;
-    }
-    return seconds;
-}
 
 /* A key is told when the cases differ in it. */
 static bool varies(const fm_plan *plan, const fm_key *key)
