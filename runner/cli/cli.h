@@ -15,7 +15,7 @@
 #include "base/text.h"
 #include "device/registry.h"
 #include "model/exit_code.h"
-#include "plan/plan.h"
+#include "plan/shard.h"
 
 enum {
     CLI_DONE = FM_EXIT_DONE, /* model/exit_code.h says what each means */
@@ -70,8 +70,9 @@ typedef struct fm_arguments {
     const char *reference; /* for the report: NAME, DIR or none; NULL: not given */
     uint32_t timeout_s;
     uint64_t memory_bytes, seed;
-    uint32_t retried; /* statuses, as bits */
-    uint32_t kept;    /* kept_kind, as bits */
+    fm_shard_desc shard; /* count 0: the whole plan */
+    uint32_t retried;    /* statuses, as bits */
+    uint32_t kept;       /* kept_kind, as bits */
     bool has_seed, no_images, no_report, validation, no_timers, quiet, json, smoke, large, fresh;
 } fm_arguments;
 
@@ -98,6 +99,9 @@ void arguments_free(fm_arguments *arguments);
  * spec. */
 fm_status arguments_plan(fm_plan *plan, fm_plugin_list *plugins, const fm_arguments *arguments,
                          const char *const *specs, fm_error *err);
+
+/* Leaves of a plan what --shard asks for. FM_INVALID, FM_NO_MEMORY. */
+fm_status arguments_shard(fm_plan *plan, const fm_arguments *arguments, fm_error *err);
 
 /* Finds the plugins; folders: those of --plugin-dir. None is ever loaded into this process. */
 fm_status cli_find_plugins(fm_plugin_list *plugins, const fm_text_list *folders, fm_error *err);

@@ -36,6 +36,7 @@ static const struct argp argp = {
         "Examples:\n"
         "  fragmark plan --method kb,kplus-array -a k=4:16:*2\n"
         "  fragmark plan my.yml --json\n"
+        "  fragmark plan my.yml --shard 2/16     what one of 16 machines would measure\n"
         "\n"
         "Axes, with their values and (default):",
     .children = cli_spec_children,
@@ -89,6 +90,9 @@ static int write_table(const fm_cli *cli, const fm_plan *plan)
     }
     free(is_told);
     duration_text(duration, plan_seconds(plan));
+    if (plan->shard.count > 0)
+        fprintf(cli->talk, "shard %u of %u, of %zu cases: ", plan->shard.index, plan->shard.count,
+                plan->shard.case_count);
     fprintf(cli->talk,
             "%zu cases, %zu to run: %u launches of %u frames each, seed %llu; about %s on two CPU "
             "cores (an estimate; a GPU is faster)\n",
@@ -164,7 +168,7 @@ static int plan_code(const fm_plan *plan, const fm_text_index *unread)
         failed += is_refused || is_unread(planned, unread);
         runnable += planned->skip == NULL && !is_unread(planned, unread);
     }
-    if (runnable == 0 && plan->count > 0)
+    if (runnable == 0 && plan->count > 0 && plan->shard.count == 0)
         return CLI_NOTHING;
     return failed > 0 ? CLI_SOME_FAILED : CLI_DONE;
 }

@@ -82,6 +82,7 @@ static const struct argp argp = {
            "  fragmark reproduce KP-3             the figure that this claim is about\n"
            "  fragmark reproduce evr --seeds 5    its scenes made five times over\n"
            "  fragmark reproduce all --device vulkan:1\n"
+           "  fragmark reproduce all --shard 2/16 -o out/2     for one of 16 machines\n"
            "\n" CLI_EXIT_CODES,
     .children = children,
 };
@@ -269,7 +270,8 @@ static fm_status assign_cases(fm_text *csv, fm_plan *plan, const spec_files *spe
         const char *id = specs->owners.items[i];
         status = arguments_expand(&of_figure, plugins, arguments, specs->paths.items[i], err);
         for (size_t j = 0; j < of_figure.count && status == FM_OK; j++)
-            text_add(csv, "%s,%s\n", id, of_figure.cases[j].id);
+            if (text_index_find(&ids, of_figure.cases[j].id) != FM_TEXT_INDEX_NONE)
+                text_add(csv, "%s,%s\n", id, of_figure.cases[j].id);
         if (status == FM_OK && has_pictures(specs->list, id))
             choose_pictures(plan, &ids, &of_figure);
         plan_free(&of_figure);
@@ -309,7 +311,8 @@ static fm_status make_plan(fm_plan *plan, fm_plugin_list *plugins, const fm_argu
     if (specs->paths.count > 0)
         return arguments_plan(plan, plugins, arguments, text_list_items(&specs->paths), err);
     plan->launches = 1;
-    return cli_find_plugins(plugins, &arguments->plugin_folders, err);
+    const fm_status status = cli_find_plugins(plugins, &arguments->plugin_folders, err);
+    return status == FM_OK ? arguments_shard(plan, arguments, err) : status;
 }
 
 static int run_specs(const spec_files *specs, const fm_arguments *arguments)

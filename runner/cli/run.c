@@ -20,6 +20,7 @@ static const struct argp argp = {
         "  fragmark run --method kb,kplus-array -a k=4:16:*2 -o first\n"
         "  fragmark run --method all --device vulkan,osmesa -a n=32 -a launches=3\n"
         "  fragmark run my.yml --scene bunny -o my-results\n"
+        "  fragmark run my.yml --shard 2/16 -o shards/2     then: fragmark merge shards/* -o all\n"
         "\n"
         "A run that was stopped, or killed, goes on when the same command is given with the "
         "same -o. Results: DIR/summary.csv (a row a case), DIR/samples.csv (a row a sample), "
@@ -92,7 +93,9 @@ static int exit_code(const fm_run_result *result, const fm_plan *plan)
         return CLI_SIGNAL + result->stop_signal;
     if (result->failed > 0)
         return CLI_SOME_FAILED;
-    return result->ok > 0 || plan->count == 0 ? CLI_DONE : CLI_NOTHING;
+    /* A shard may have nothing but cases that cannot run: the whole has others. */
+    const bool needs_none = plan->count == 0 || plan->shard.count > 0;
+    return result->ok > 0 || needs_none ? CLI_DONE : CLI_NOTHING;
 }
 
 /* Whoever reads a time must know what it was measured beside. */
