@@ -14,14 +14,6 @@
 
 enum { BLOCK_BYTES = 1 << 16 };
 
-static bool has_item(const bundle_items *items, const char *to)
-{
-    for (size_t i = 0; i < items->count; i++)
-        if (strcmp(items->items[i].to, to) == 0)
-            return true;
-    return false;
-}
-
 static fm_status check_file(bundle_item *item, fm_error *err)
 {
     struct stat info;
@@ -36,8 +28,11 @@ static fm_status check_file(bundle_item *item, fm_error *err)
 
 fm_status items_add(bundle_items *items, const char *from, const char *to, fm_error *err)
 {
-    if (has_item(items, to))
+    const size_t at = text_index_add(&items->index, to, items->count);
+    if (at != items->count && at != FM_TEXT_INDEX_NONE)
         return FM_OK;
+    if (at == FM_TEXT_INDEX_NONE)
+        return fm_fail(err, FM_NO_MEMORY, "no memory for %zu files", items->count + 1);
     bundle_item *grown = reallocarray(items->items, items->count + 1, sizeof *grown);
     if (grown == NULL)
         return fm_fail(err, FM_NO_MEMORY, "no memory for %zu files", items->count + 1);
@@ -176,6 +171,7 @@ void items_free(bundle_items *items)
         free(items->items[i].to);
     }
     free(items->items);
+    text_index_free(&items->index);
     *items = (bundle_items){ 0 };
 }
 

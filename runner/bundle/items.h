@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "base/error.h"
+#include "base/text_index.h"
 
 typedef struct bundle_item {
     char *from, *to; /* `to` is seen from the bundle's top */
@@ -19,6 +20,7 @@ typedef struct bundle_item {
 typedef struct bundle_items {
     bundle_item *items;
     size_t count;
+    fm_text_index index; /* by `to` */
 } bundle_items;
 
 /* Adds the file from, unless `to` is there already. FM_IO: no file, or it may not be read. */
