@@ -165,6 +165,10 @@ bool report_find(char path[FM_PATH_MAX_BYTES]);
  * error      the metric that is held against time; NULL: the default */
 int report_execute(const char *program, const char *directory, const char *reference,
                    const char *error);
+/* Draws what a run or a merge ends with: CLI_DONE, CLI_CLAIM_FAILS, or CLI_INCOMPLETE: the results
+ * are there, and the report is not, or it was drawn and lacks something, which the program has
+ * told. reference: as above. */
+int cli_draw_report(const fm_cli *cli, const char *directory, const char *reference);
 /* Before anything is measured: FM_INVALID or FM_IO if the reference that is asked for, or a figure
  * that the report is to draw, cannot be read. Says so if there is no fragmark-report. figures: ids,
  * ends with NULL. */

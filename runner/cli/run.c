@@ -68,25 +68,6 @@ char *cli_command_text(int argc, char **argv)
     return text.bytes;
 }
 
-/* CLI_DONE, CLI_CLAIM_FAILS, or CLI_INCOMPLETE: the results are there, and the report is not, or
- * it was drawn and lacks something, which the program has told. */
-static int report(const fm_arguments *arguments, const char *directory)
-{
-    const fm_cli *cli = arguments->cli;
-    char program[FM_PATH_MAX_BYTES];
-    if (!report_find(program))
-        return CLI_DONE; /* report_expect has told */
-    const int code = report_execute(program, directory, arguments->reference, NULL);
-    if (code == CLI_DONE || code == CLI_CLAIM_FAILS)
-        return code;
-    if (code == CLI_INCOMPLETE)
-        fprintf(cli->talk, "the report is missing or incomplete, as told above; ");
-    else
-        fprintf(cli->talk, "%s failed (%d); ", program, code);
-    fprintf(cli->talk, "again with: fragmark report %s\n", directory);
-    return CLI_INCOMPLETE;
-}
-
 static int exit_code(const fm_run_result *result, const fm_plan *plan)
 {
     if (result->stop_signal != 0)
@@ -206,9 +187,10 @@ int cli_run_plan(const fm_arguments *arguments, const cli_run_desc *desc)
     if (status != FM_OK)
         return failed;
     const int code = exit_code(&result, desc->plan);
-    const int reported = result.stop_signal == 0 && !arguments->no_report
-                             ? report(arguments, desc->directory)
-                             : CLI_DONE;
+    const int reported =
+        result.stop_signal == 0 && !arguments->no_report
+            ? cli_draw_report(arguments->cli, desc->directory, arguments->reference)
+            : CLI_DONE;
     return reported != CLI_DONE ? reported : code;
 }
 
