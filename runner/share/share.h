@@ -1,0 +1,12 @@
+/* Subcommands for many machines and for other people: `merge` joins what shards measured.
+ *
+ * The room share holds these subcommands, as cli holds the others: their options, their help and
+ * their exit codes. */
+#ifndef FM_SHARE_H
+#define FM_SHARE_H
+
+#include "cli/cli.h"
+
+fm_command share_merge;
+
+#endif
