@@ -59,7 +59,7 @@ static fm_status add_entry(bundle_items *items, const FTSENT *entry, size_t skip
     char path[FM_PATH_MAX_BYTES];
     if (entry->fts_info == FTS_DNR || entry->fts_info == FTS_ERR || entry->fts_info == FTS_NS)
         return fm_fail(err, FM_IO, "%s: %s", entry->fts_path, strerror(entry->fts_errno));
-    if (entry->fts_info != FTS_F || !ends_as_one(entry->fts_name, endings))
+    if (entry->fts_info != FTS_F || (endings != NULL && !ends_as_one(entry->fts_name, endings)))
         return FM_OK;
     const fm_status status = path_join(path, to, entry->fts_path + skipped, err);
     return status == FM_OK ? items_add(items, entry->fts_path, path, err) : status;

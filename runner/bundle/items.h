@@ -26,7 +26,7 @@ typedef struct bundle_items {
 /* Adds the file from, unless `to` is there already. FM_IO: no file, or it may not be read. */
 fm_status items_add(bundle_items *items, const char *from, const char *to, fm_error *err);
 /* Adds the files below a folder whose names end as one of endings, small or capital, which ends
- * with NULL, and counts those that are new. */
+ * with NULL, or all where endings is NULL; counts those that are new. */
 fm_status items_add_tree(bundle_items *items, uint32_t *count, const char *folder, const char *to,
                          const char *const *endings, fm_error *err);
 uint64_t items_bytes(const bundle_items *items);

@@ -1,11 +1,12 @@
 #include "merged_manifest.h"
 
-#include <dirent.h>
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <xxhash.h>
+
+#include "bundle/items_json.h"
+#include "bundle/staging.h"
 
 static const char *text_of(const json_t *object, const char *name)
 {
@@ -178,7 +179,7 @@ static fm_status expect_own(const char *directory, const char *plan, fm_error *e
 {
     json_t *manifest = NULL;
     fm_error below = { 0 };
-    const bool is_read = shard_read_json(&manifest, directory, "manifest.json", &below) == FM_OK;
+    const bool is_read = json_read_object(&manifest, directory, "manifest.json", &below) == FM_OK;
     const char *of = is_read ? text_of(json_object_get(manifest, "merged"), "plan") : "";
     const fm_status status =
         strcmp(of, plan) == 0
@@ -191,14 +192,10 @@ static fm_status expect_own(const char *directory, const char *plan, fm_error *e
 
 fm_status merged_manifest_expect(const char *directory, const char *plan, fm_error *err)
 {
-    bool is_empty = true;
-    DIR *folder = opendir(directory);
-    if (folder == NULL)
-        return errno == ENOENT ? FM_OK
-                               : fm_fail(err, FM_INVALID, "%s: %s", directory, strerror(errno));
-    for (const struct dirent *entry; (entry = readdir(folder)) != NULL;)
-        is_empty =
-            is_empty && (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0);
-    closedir(folder);
-    return is_empty ? FM_OK : expect_own(directory, plan, err);
+    fm_error below = { 0 };
+    if (staging_expect_free(directory, &below) == FM_OK)
+        return FM_OK;
+    const fm_status status = path_is_folder(directory, &below);
+    return status == FM_OK ? expect_own(directory, plan, err)
+                           : fm_fail(err, FM_INVALID, "%s", below.message);
 }

@@ -4,36 +4,13 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "bundle/items_json.h"
 #include "model/columns.h"
 #include "model/outcome.h"
-
-#define MANIFEST_BYTES ((size_t)256 << 20)
 
 /* Columns of shard.csv, as plan/shard.c writes them. */
 enum { CASE_ID, CASE_SHARD, CASE_REFERENCE, CASE_COLUMNS };
 static const char *const case_columns[CASE_COLUMNS] = { "case_id", "shard", "is_reference" };
-
-fm_status shard_read_json(json_t **json, const char *directory, const char *name, fm_error *err)
-{
-    char path[FM_PATH_MAX_BYTES], *bytes = NULL;
-    size_t count = 0;
-    json_error_t fault = { 0 };
-    *json = NULL;
-    fm_status status = path_join(path, directory, name, err);
-    if (status == FM_OK)
-        status = text_read_file(&bytes, &count, path, MANIFEST_BYTES, err);
-    if (status != FM_OK)
-        return status;
-    *json = json_loadb(bytes, count, JSON_REJECT_DUPLICATES, &fault);
-    free(bytes);
-    if (*json == NULL)
-        return fm_fail(err, FM_INVALID, "%s:%d: %s", path, fault.line, fault.text);
-    if (json_is_object(*json))
-        return FM_OK;
-    json_decref(*json);
-    *json = NULL;
-    return fm_fail(err, FM_INVALID, "%s:1: not a JSON object", path);
-}
 
 static bool is_hash(const char *text)
 {
@@ -137,7 +114,7 @@ fm_status shard_folder_open(shard_folder *folder, const char *path, bool *is_dam
             err->status = FM_INVALID;
         return FM_INVALID;
     }
-    status = shard_read_json(&folder->manifest, path, "manifest.json", err);
+    status = json_read_object(&folder->manifest, path, "manifest.json", err);
     *is_damaged = status != FM_OK && status != FM_NO_MEMORY;
     if (*is_damaged)
         fm_error_prefix(err, "no folder of a shard's results");

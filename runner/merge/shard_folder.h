@@ -34,7 +34,4 @@ bool shard_case_is_reference(const shard_folder *folder, size_t index);
 /* Whether a row of the summary tells how the case ended: not of one that had no turn. */
 bool shard_row_is_finished(const shard_folder *folder, size_t row);
 
-/* DIR/NAME of a JSON object. FM_INVALID with file and line; FM_IO. The caller drops *json. */
-fm_status shard_read_json(json_t **json, const char *directory, const char *name, fm_error *err);
-
 #endif
