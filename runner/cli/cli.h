@@ -154,6 +154,8 @@ int cli_run_plan(const fm_arguments *arguments, const cli_run_desc *desc);
 void cli_reasons(FILE *talk, const char *directory);
 /* -o, or out-UTC. */
 void cli_directory(char directory[FM_PATH_MAX_BYTES], const fm_arguments *arguments);
+/* DIR/specs: what was run, for the record. */
+void cli_keep_specs(const fm_text_list *paths, const char *directory);
 /* The words of a command line, quoted where a shell needs it; the caller frees it. NULL: no memory
  */
 char *cli_command_text(int argc, char **argv);

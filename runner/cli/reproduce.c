@@ -1,7 +1,6 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/path.h"
@@ -218,22 +217,6 @@ static void close_specs(spec_files *specs)
     text_list_free(&specs->owners);
 }
 
-/* DIR/specs: what was run, for the record. */
-static void keep_specs(const spec_files *specs, const char *directory)
-{
-    char path[3 * FM_PATH_MAX_BYTES];
-    snprintf(path, sizeof path, "%s/specs", directory);
-    mkdir(path, 0777);
-    for (size_t i = 0; i < specs->paths.count; i++) {
-        char *bytes = NULL;
-        size_t count = 0;
-        snprintf(path, sizeof path, "%s/specs%s", directory, strrchr(specs->paths.items[i], '/'));
-        if (text_read_file(&bytes, &count, specs->paths.items[i], 1u << 20, NULL) == FM_OK)
-            text_write_file(path, bytes, count, NULL);
-        free(bytes);
-    }
-}
-
 /* Pictures are kept of figures that show them. */
 static void choose_pictures(fm_plan *plan, const fm_text_index *ids, const fm_plan *of_figure)
 {
@@ -339,7 +322,7 @@ static int run_specs(const spec_files *specs, const fm_arguments *arguments)
     else
         code = cli_run_plan(arguments, &desc);
     if (code != CLI_USAGE && code != CLI_DAMAGED)
-        keep_specs(specs, directory);
+        cli_keep_specs(&specs->paths, directory);
     text_free(&memory);
     text_free(&figure_cases);
     plan_free(&plan);

@@ -4,6 +4,7 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -43,6 +44,24 @@ void cli_directory(char directory[FM_PATH_MAX_BYTES], const fm_arguments *argume
     }
     gmtime_r(&now, &utc);
     strftime(directory, FM_PATH_MAX_BYTES, "out-%Y%m%dT%H%M%SZ", &utc);
+}
+
+void cli_keep_specs(const fm_text_list *paths, const char *directory)
+{
+    char path[3 * FM_PATH_MAX_BYTES];
+    snprintf(path, sizeof path, "%s/specs", directory);
+    if (paths->count > 0)
+        mkdir(path, 0777);
+    for (size_t i = 0; i < paths->count; i++) {
+        char *bytes = NULL;
+        size_t count = 0;
+        const char *slash = strrchr(paths->items[i], '/');
+        snprintf(path, sizeof path, "%s/specs/%s", directory,
+                 slash != NULL ? slash + 1 : paths->items[i]);
+        if (text_read_file(&bytes, &count, paths->items[i], 1u << 20, NULL) == FM_OK)
+            text_write_file(path, bytes, count, NULL);
+        free(bytes);
+    }
 }
 
 char *cli_command_text(int argc, char **argv)
@@ -217,6 +236,8 @@ int cli_run(const fm_cli *cli, int argc, char **argv)
                                     .plugins = &plugins,
                                     .figures = none };
         code = cli_run_plan(&arguments, &desc);
+        if (code != CLI_USAGE && code != CLI_DAMAGED)
+            cli_keep_specs(&arguments.positional, directory);
     }
     plan_free(&plan);
     plugin_list_close(&plugins);
