@@ -92,6 +92,18 @@ uint64_t items_bytes(const bundle_items *items)
     return bytes;
 }
 
+static int compare_items(const void *left, const void *right)
+{
+    const bundle_item *a = left, *b = right;
+    return strcmp(a->to, b->to);
+}
+
+void items_sort(bundle_items *items)
+{
+    if (items->count > 0)
+        qsort(items->items, items->count, sizeof *items->items, compare_items);
+}
+
 /* The folders above a file of the bundle; those of root are there. */
 static fm_status make_folders(char *path, size_t root_length, fm_error *err)
 {

@@ -30,6 +30,8 @@ fm_status items_add(bundle_items *items, const char *from, const char *to, fm_er
 fm_status items_add_tree(bundle_items *items, uint32_t *count, const char *folder, const char *to,
                          const char *const *endings, fm_error *err);
 uint64_t items_bytes(const bundle_items *items);
+/* Puts them in the order of `to`. None is added after that. */
+void items_sort(bundle_items *items);
 /* Copies all below the folder root, and fills in the hashes. */
 fm_status items_copy(bundle_items *items, const char *root, fm_error *err);
 void items_free(bundle_items *items);

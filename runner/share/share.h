@@ -1,4 +1,5 @@
-/* Subcommands for many machines and for other people: `merge` joins what shards measured.
+/* Subcommands for many machines and for other people: `merge` joins what shards measured; `pack`
+ * and `verify` are for whoever reviews results.
  *
  * The room share holds these subcommands, as cli holds the others: their options, their help and
  * their exit codes. */
@@ -7,6 +8,6 @@
 
 #include "cli/cli.h"
 
-fm_command share_merge;
+fm_command share_merge, share_pack, share_verify;
 
 #endif
