@@ -25,6 +25,7 @@ static const struct {
     { "reproduce", "fragmark reproduce", cli_reproduce, "measures what figures of a paper show" },
     { "merge", "fragmark merge", share_merge,
       "the folders of `run --shard` as one, with their report" },
+    { "slurm", "fragmark slurm", share_slurm, "shards and their merge as jobs of a Slurm cluster" },
     { "pack", "fragmark pack", share_pack, "results with checksums and versions, to hand on" },
     { "verify", "fragmark verify", share_verify,
       "what of a pack is damaged, and what is another on this machine" },

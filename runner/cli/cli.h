@@ -156,6 +156,8 @@ void cli_reasons(FILE *talk, const char *directory);
 void cli_directory(char directory[FM_PATH_MAX_BYTES], const fm_arguments *arguments);
 /* DIR/specs: what was run, for the record. */
 void cli_keep_specs(const fm_text_list *paths, const char *directory);
+/* Adds a word, quoted where a shell needs it. */
+void cli_add_word(fm_text *text, const char *word);
 /* The words of a command line, quoted where a shell needs it; the caller frees it. NULL: no memory
  */
 char *cli_command_text(int argc, char **argv);

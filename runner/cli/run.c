@@ -64,23 +64,27 @@ void cli_keep_specs(const fm_text_list *paths, const char *directory)
     }
 }
 
+void cli_add_word(fm_text *text, const char *word)
+{
+    const bool is_plain =
+        word[0] != '\0' && word[strcspn(word, " \t\n'\"*?$`\\()[]{}<>|&;#~!")] == '\0';
+    if (is_plain) {
+        text_add(text, "%s", word);
+        return;
+    }
+    text_add(text, "'");
+    for (const char *c = word; *c != '\0'; c++)
+        text_add(text, *c == '\'' ? "'\\''" : "%c", *c);
+    text_add(text, "'");
+}
+
 char *cli_command_text(int argc, char **argv)
 {
     fm_text text = { 0 };
-    for (int i = 0; i < argc; i++) {
-        /* argv[0] is "fragmark NAME": our own, two words. */
-        const bool is_plain =
-            i == 0 || (argv[i][0] != '\0' &&
-                       argv[i][strcspn(argv[i], " \t\n'\"*?$`\\()[]{}<>|&;#~!")] == '\0');
-        text_add(&text, "%s", i > 0 ? " " : "");
-        if (is_plain) {
-            text_add(&text, "%s", argv[i]);
-            continue;
-        }
-        text_add(&text, "'");
-        for (const char *c = argv[i]; *c != '\0'; c++)
-            text_add(&text, *c == '\'' ? "'\\''" : "%c", *c);
-        text_add(&text, "'");
+    text_add(&text, "%s", argv[0]); /* "fragmark NAME": our own, two words */
+    for (int i = 1; i < argc; i++) {
+        text_add(&text, " ");
+        cli_add_word(&text, argv[i]);
     }
     if (text.failed)
         text_free(&text);
