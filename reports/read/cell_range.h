@@ -5,7 +5,8 @@
 #include "base/table.h"
 #include "model/metrics.h"
 
-/* As table_number; FM_INVALID also for what is beyond the range. An empty cell is of every range. */
+/* As table_number; FM_INVALID also for what is beyond the range. An empty cell is of every range.
+ */
 fm_status table_in_range(double *value, fm_metric_range range, const fm_table *table, size_t row,
                          size_t column, fm_error *err);
 
