@@ -73,7 +73,14 @@ expect 2 'which folders' merge -o "$work/x"
 # What lacks is named, and what is there is merged
 expect 5 'shard 2/16 is missing' merge "$work/shards/1" "$work/shards/3" -o "$work/part" --no-report
 [ -s "$work/part/summary.csv" ] || complain "what was there was not merged"
+if [ -x "$(dirname "$program")/fragmark-report" ]; then
+    expect 5 'shard 2/16 is missing' report "$work/part"
+    grep -q 'shard 2/16 is missing' "$work/part/report.html" || complain "the report does not say what lacks"
+fi
 expect 0 '48 of 48' merge "$work"/shards/* -o "$work/part" --no-report
+[ ! -e "$work/part/report.html" ] || "$program" report "$work/part" >/dev/null 2>&1 || complain "no report of the whole"
+grep -qs 'is missing' "$work/part/report.html" && complain "the report of the whole says that shards are missing"
+find "$work/part/images" -not -name '*.rgba32f' -type f -delete # the report's
 same "$work/whole" "$work/part"
 
 # A shard that somebody ended; its command continues it
