@@ -14,7 +14,7 @@ static bool is_of_folder(const shard_set *set, size_t folder, const char *name)
     char id[17];
     if (strlen(name) < sizeof id || name[sizeof id - 1] != '.')
         return false;
-    snprintf(id, sizeof id, "%s", name);
+    snprintf(id, sizeof id, "%.16s", name);
     const size_t index = text_index_find(&set->ids, id);
     return index != FM_TEXT_INDEX_NONE && set->taken[index].folder == folder;
 }
