@@ -91,8 +91,9 @@ static int write_table(const fm_cli *cli, const fm_plan *plan)
     free(is_told);
     duration_text(duration, plan_seconds(plan));
     if (plan->shard.count > 0)
-        fprintf(cli->talk, "shard %u of %u, of %zu cases: ", plan->shard.index, plan->shard.count,
-                plan->shard.case_count);
+        fprintf(cli->talk, "shard %u of %u, of %zu cases in %zu groups that stay together: ",
+                plan->shard.index, plan->shard.count, plan->shard.case_count,
+                plan->shard.group_count);
     fprintf(cli->talk,
             "%zu cases, %zu to run: %u launches of %u frames each, seed %llu; about %s on two CPU "
             "cores (an estimate; a GPU is faster)\n",

@@ -63,6 +63,7 @@ typedef struct fm_shard {
     uint32_t index, count; /* 1..count; count 0: the plan is whole */
     char plan[17];         /* plan_hash of the whole plan */
     size_t case_count;     /* of the whole plan */
+    size_t group_count;    /* of cases that stay together: more shards than that have none */
     char reference[64];    /* method whose cases are in every shard; "": none */
     fm_text table;         /* shard.csv: the shard of each case of the whole plan; owned */
 } fm_shard;

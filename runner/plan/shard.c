@@ -218,6 +218,7 @@ fm_status plan_shard(fm_plan *plan, const fm_shard_desc *desc, fm_error *err)
     fm_status status = deal_cases(&deal, desc, err);
     if (status == FM_OK) {
         plan_hash(shard.plan, plan, false, false);
+        shard.group_count = deal.group_count;
         snprintf(shard.reference, sizeof shard.reference, "%s", deal.reference);
         write_table(&shard.table, &deal);
         if (shard.table.failed)

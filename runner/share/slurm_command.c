@@ -115,7 +115,7 @@ static const struct argp argp = {
         "\n"
         "Examples:\n"
         "  fragmark slurm my.yml -n 16 -o night --shard-sbatch=--gres=gpu:1 --submit\n"
-        "  fragmark slurm --method all -a n=8:64:*2 -n 8 --sbatch=--time=30 --requeues 5\n"
+        "  fragmark slurm --method all -a n=8:64:*2 -n 8 --requeues 5\n"
         "  fragmark slurm reproduce kplus --smoke -n 4 -o kplus\n"
         "\n"
         "Exit codes: 0 written, and with --submit submitted; 2 wrong use, a spec error, or DIR "
@@ -140,6 +140,15 @@ static int own_words(const char *word)
     return strcmp(word, "--help") == 0 || strcmp(word, "--usage") == 0 || strcmp(word, "-?") == 0;
 }
 
+/* Whether the first word that is not ours names the shards' command. */
+static bool names_command(int argc, char **argv)
+{
+    int i = 1;
+    while (i < argc && own_words(argv[i]) > 0)
+        i += own_words(argv[i]);
+    return i < argc && (strcmp(argv[i], "run") == 0 || strcmp(argv[i], "reproduce") == 0);
+}
+
 /* Ours are parsed, and others kept for the shards' command, which begins with its name. */
 static fm_status take_arguments(slurm_arguments *given, int argc, char **argv, fm_error *err)
 {
@@ -149,9 +158,7 @@ static fm_status take_arguments(slurm_arguments *given, int argc, char **argv, f
     if (own == NULL)
         return fm_fail(err, FM_NO_MEMORY, "no memory for the arguments");
     own[0] = argv[0];
-    const bool is_named =
-        argc > 1 && (strcmp(argv[1], "run") == 0 || strcmp(argv[1], "reproduce") == 0);
-    if (!is_named)
+    if (!names_command(argc, argv))
         status = names_add(&given->words, "run", err);
     for (int i = 1; i < argc && status == FM_OK; i++) {
         int words = own_words(argv[i]);

@@ -35,12 +35,12 @@ static fm_status execute(int *code, char **said, const char *path, const char *c
     return status;
 }
 
-/* The last lines that begin with the program's name say what is wrong. */
-static void tell_fault(const fm_cli *cli, const char *said)
+/* Those lines of what was said that begin so. */
+static void tell_lines(const fm_cli *cli, const char *said, const char *start)
 {
     for (const char *line = said; *line != '\0';) {
         const size_t length = strcspn(line, "\n");
-        if (strncmp(line, "fragmark", 8) == 0)
+        if (strncmp(line, start, strlen(start)) == 0)
             fprintf(cli->talk, "%.*s\n", (int)length, line);
         line += length + (line[length] == '\n');
     }
@@ -68,8 +68,8 @@ int slurm_check_plan(const fm_cli *cli, const slurm_desc *desc)
     const fm_status status = execute(&code, &said, desc->program, argv, &err);
     if (status != FM_OK)
         code = cli_fail(cli, &err);
-    else if (code != CLI_DONE && code != CLI_SOME_FAILED)
-        tell_fault(cli, said);
+    else /* what is wrong, or how much the first shard is */
+        tell_lines(cli, said, code == CLI_DONE || code == CLI_SOME_FAILED ? "shard " : "fragmark");
     free(said);
     free(argv);
     return code == CLI_SOME_FAILED ? CLI_DONE : code < 0 ? CLI_NOTHING : code;

@@ -79,6 +79,8 @@ stopped 1
 stopped 2
 [ "$(cat requeued)" = "requeue 7_1" ] || complain "it was put into the queue too often"
 
+expect 0 'shard 1 of 9, of 4 cases in 2 groups that stay together' "my spec.yml" -n 9 -o many
+
 # Submitted: the merge after the array
 expect 0 '^41$' "my spec.yml" -n 2 -o sent --submit
 grep -q '^--parsable --dependency=afterany:41 .*/merge.sbatch$' submitted || complain "the merge does not wait: $(cat submitted)"
@@ -86,6 +88,12 @@ printf '#!/bin/sh\necho "sbatch: error: Invalid partition" >&2\nexit 1\n' >bin/s
 expect 5 'Invalid partition' "my spec.yml" -n 2 -o sent --submit
 rm bin/sbatch
 command -v sbatch >/dev/null || expect 3 'slurm-client' "my spec.yml" -n 2 -o sent --submit
+
+# Figures, with our options before or behind
+expect 0 'afterany' -n 2 --requeues 1 reproduce kplus-05 --smoke -o figure
+grep -q 'fragmark reproduce kplus-05 --smoke --shard' figure/shards.sbatch || complain "no reproduction: $(cat figure/shards.sbatch)"
+expect 0 'afterany' run "my spec.yml" -n 2 -o spec
+grep -q "fragmark run 'my spec.yml' --shard" spec/shards.sbatch || complain "no run: $(cat spec/shards.sbatch)"
 
 # Bad arguments are told now, not by the tasks
 expect 2 'how many shards' "my spec.yml"

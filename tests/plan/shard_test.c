@@ -148,6 +148,7 @@ static void shard_knows_the_whole_plan(void **state)
     assert_string_equal(one.shard.table.bytes, other.shard.table.bytes);
     assert_string_not_equal(first, second);
     assert_int_equal(one.shard.case_count, CASES);
+    assert_int_equal(one.shard.group_count, CASES / METHODS);
     plan_free(&whole);
     plan_free(&one);
     plan_free(&other);
