@@ -8,6 +8,7 @@
 #include "describe/describe.h"
 #include "devices.h"
 #include "inspect/dump.h"
+#include "share/share.h"
 #include "worker/worker.h"
 
 static const struct {
@@ -22,6 +23,12 @@ static const struct {
       "the cases of a run and the estimated time; runs nothing" },
     { "run", "fragmark run", cli_run, "measures methods on scenes" },
     { "reproduce", "fragmark reproduce", cli_reproduce, "measures what figures of a paper show" },
+    { "merge", "fragmark merge", share_merge,
+      "the folders of `run --shard` as one, with their report" },
+    { "slurm", "fragmark slurm", share_slurm, "shards and their merge as jobs of a Slurm cluster" },
+    { "pack", "fragmark pack", share_pack, "results with checksums and versions, to hand on" },
+    { "verify", "fragmark verify", share_verify,
+      "what of a pack is damaged, and what is another on this machine" },
     { "dump", "fragmark dump", inspect_dump,
       "fragments of a pixel, and what is wrong with them, from what a run kept" },
     { "record", "fragmark record", cli_record,

@@ -2,8 +2,8 @@
 #ifndef FM_MEMORY_ROWS_H
 #define FM_MEMORY_ROWS_H
 
+#include "base/table.h"
 #include "base/text.h"
-#include "read/table.h"
 
 /* The rows of memory.csv that belong to the figure; nothing where it has none, or memory is NULL.
  */

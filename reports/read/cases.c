@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "cell_range.h"
 #include "options.h"
 
 /* Where the texts and keys of a row are kept; its metrics are an array. */

@@ -6,11 +6,11 @@
 #include <stdint.h>
 
 #include "base/error.h"
+#include "base/table.h"
 #include "base/text_index.h"
 #include "model/columns.h"
 #include "model/outcome.h"
 #include "provenance.h"
-#include "table.h"
 
 /* One row. Texts belong to the table and the manifest, and are "" where the cell is empty; numbers
  * are NAN there. Names, units and meanings are those of the columns. */

@@ -1,6 +1,7 @@
 #include "missing.h"
 
 #include <errno.h>
+#include <jansson.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -84,8 +85,25 @@ static fm_status find_journal(fm_text_list *missing, const char *directory, fm_e
     return add(missing, sentence, err);
 }
 
+/* What a merge of shards said when it was made. */
+static fm_status find_shards(fm_text_list *missing, const fm_provenance *manifest, fm_error *err)
+{
+    const json_t *merged = manifest != NULL ? json_object_get(manifest->json, "merged") : NULL;
+    const json_t *sentence;
+    size_t i;
+    fm_status status = FM_OK;
+    json_array_foreach(json_object_get(merged, "missing"), i, sentence)
+    {
+        if (status == FM_OK && json_is_string(sentence))
+            status = add(missing, json_string_value(sentence), err);
+    }
+    return status;
+}
+
 fm_status missing_find(fm_text_list *missing, const fm_result_files *results, fm_error *err)
 {
-    const fm_status status = find_samples(missing, results, err);
+    fm_status status = find_samples(missing, results, err);
+    if (status == FM_OK)
+        status = find_shards(missing, results->manifest, err);
     return status == FM_OK ? find_journal(missing, results->directory, err) : status;
 }

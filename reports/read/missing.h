@@ -7,8 +7,8 @@
 
 /* Adds a sentence where samples.csv is not there, or has no row of cases that were measured; and
  * where journal.jsonl is damaged: its first line that is none, by its number. A last line without
- * its end is of a run that was killed, or still runs. FM_IO: the journal cannot be read;
- * FM_NO_MEMORY. */
+ * its end is of a run that was killed, or still runs. Of merged shards also those that are missing
+ * or not finished, as manifest.json has them. FM_IO: the journal cannot be read; FM_NO_MEMORY. */
 fm_status missing_find(fm_text_list *missing, const fm_result_files *results, fm_error *err);
 
 #endif

@@ -1,7 +1,7 @@
 /* The result files of a run, read and checked.
  *
  * The room reports/read turns files into data: result files (this header, cases.h, samples.h,
- * table.h, provenance.h), figure files and their claims (paper_figure.h, claim.h), and kept
+ * provenance.h), figure files and their claims (paper_figure.h, claim.h), and kept
  * pictures (picture.h). It also answers what all readers ask of cases: their numbers
  * (case_metrics.h), options and workloads, and which of them may stand in one chart (group.h). A
  * damaged file is refused here with its line; the rooms above need not check again. Nothing here
@@ -14,10 +14,10 @@
 #include <stdint.h>
 
 #include "base/error.h"
+#include "base/table.h"
 #include "base/text.h"
 #include "provenance.h"
 #include "samples.h"
-#include "table.h"
 
 enum { FM_RESULT_FIGURES = 64 }; /* a bit each in fm_case_row.figures */
 

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "cell_range.h"
 
 /* Which column is what; the metric's is kept. */
 typedef struct sample_columns {

@@ -1,4 +1,4 @@
-/* Fields of a CSV file as RFC 4180 has it. Strict reading is the reports' own. */
+/* Fields of a CSV file as RFC 4180 has it. Strict reading is table.h's. */
 #ifndef FM_CSV_H
 #define FM_CSV_H
 

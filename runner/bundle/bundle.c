@@ -1,12 +1,9 @@
 #include "bundle.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <sys/statvfs.h>
 #include <unistd.h>
 
 #include "base/data.h"
@@ -16,8 +13,9 @@
 #include "child/child.h"
 #include "items.h"
 #include "libraries.h"
+#include "staging.h"
 
-enum { TRIAL_WAIT_S = 120, SPARE_BYTES = 1 << 20 };
+enum { TRIAL_WAIT_S = 120 };
 
 static const char program_name[] = "bin/fragmark";
 static const char library_folder[] = "lib/fragmark/lib";
@@ -32,39 +30,11 @@ typedef struct making {
     fm_text_list ids, plugins; /* methods, and where they come from */
 } making;
 
-static fm_status expect_empty(const char *directory, fm_error *err)
-{
-    bool is_empty = true;
-    DIR *folder = opendir(directory);
-    if (folder == NULL && errno == ENOENT)
-        return FM_OK;
-    if (folder == NULL)
-        return fm_fail(err, FM_INVALID, "%s: %s", directory,
-                       errno == ENOTDIR ? "is not a folder" : strerror(errno));
-    for (const struct dirent *entry; (entry = readdir(folder)) != NULL;)
-        is_empty =
-            is_empty && (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0);
-    closedir(folder);
-    return is_empty ? FM_OK
-                    : fm_fail(err, FM_INVALID, "%s: is not empty; name a new folder", directory);
-}
-
 static fm_status open_root(making *of, fm_error *err)
 {
-    char name[FM_PATH_MAX_BYTES];
-    snprintf(name, sizeof name, "%s", of->desc->directory);
-    for (size_t end = strlen(name); end > 1 && name[end - 1] == '/'; end--)
-        name[end - 1] = '\0';
-    const int length =
-        snprintf(of->root, sizeof of->root, "%.*s.partial-XXXXXX", FM_PATH_MAX_BYTES - 32, name);
-    fm_status status = expect_empty(name, err);
-    if (status != FM_OK)
-        of->root[0] = '\0';
-    else if (length >= (int)sizeof of->root || mkdtemp(of->root) == NULL) {
-        status = fm_fail(err, FM_IO, "%s: %s", of->root, strerror(errno));
-        of->root[0] = '\0';
-    } else if (chmod(of->root, 0755) != 0)
-        status = fm_fail(err, FM_IO, "%s: %s", of->root, strerror(errno));
+    fm_status status = staging_expect_free(of->desc->directory, err);
+    if (status == FM_OK)
+        status = staging_open(of->root, of->desc->directory, err);
     snprintf(of->log, sizeof of->log, "%.*s.log", FM_PATH_MAX_BYTES - 8, of->root);
     return status;
 }
@@ -126,18 +96,6 @@ static fm_status add_libraries(making *of, fm_error *err)
     text_list_free(&programs);
     text_list_free(&paths);
     return status;
-}
-
-static fm_status expect_room(const making *of, fm_error *err)
-{
-    struct statvfs disk;
-    const uint64_t bytes = items_bytes(&of->items) + SPARE_BYTES;
-    if (statvfs(of->root, &disk) != 0)
-        return fm_fail(err, FM_IO, "%s: %s", of->root, strerror(errno));
-    const uint64_t room = (uint64_t)disk.f_bavail * disk.f_frsize;
-    return room >= bytes ? FM_OK
-                         : fm_fail(err, FM_IO, "%s: a bundle takes %.1f MB, and %.1f MB are free",
-                                   of->desc->directory, (double)bytes / 1e6, (double)room / 1e6);
 }
 
 /* The bundled program finds each library but glibc's in the bundle. */
@@ -213,7 +171,7 @@ static fm_status make(making *of, fm_error *err)
     if (status == FM_OK)
         status = add_libraries(of, err);
     if (status == FM_OK)
-        status = expect_room(of, err);
+        status = staging_expect_room(of->root, items_bytes(&of->items), "a bundle", err);
     if (status == FM_OK)
         status = items_copy(&of->items, of->root, err);
     if (status == FM_OK)

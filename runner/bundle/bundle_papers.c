@@ -8,19 +8,8 @@
 #include <time.h>
 
 #include "base/data.h"
+#include "items_json.h"
 #include "parent/manifest.h"
-
-static json_t *files_json(const bundle_items *items)
-{
-    json_t *files = json_array();
-    for (size_t i = 0; i < items->count; i++) {
-        const bundle_item *item = &items->items[i];
-        json_array_append_new(files, json_pack("{s:s, s:s, s:I, s:s}", "path", item->to, "from",
-                                               item->from, "bytes", (json_int_t)item->bytes,
-                                               "xxh3_64", item->hash));
-    }
-    return files;
-}
 
 static json_t *ids_json(const fm_text_list *ids)
 {
@@ -42,7 +31,7 @@ static fm_status write_manifest(const char *root, const bundle_items *items,
     json_t *manifest =
         json_pack("{s:i, s:s, s:s, s:s, s:s, s:s, s:o, s:o}", "schema", 1, "fragmark", FM_VERSION,
                   "git_commit", manifest_commit(), "made", made, "machine", machine, "glibc",
-                  gnu_get_libc_version(), "methods", ids_json(ids), "files", files_json(items));
+                  gnu_get_libc_version(), "methods", ids_json(ids), "files", items_json(items));
     char *text = manifest != NULL ? json_dumps(manifest, JSON_INDENT(1)) : NULL;
     if (status == FM_OK)
         status = text != NULL ? text_write_file(path, text, strlen(text), err)

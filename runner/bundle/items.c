@@ -14,14 +14,6 @@
 
 enum { BLOCK_BYTES = 1 << 16 };
 
-static bool has_item(const bundle_items *items, const char *to)
-{
-    for (size_t i = 0; i < items->count; i++)
-        if (strcmp(items->items[i].to, to) == 0)
-            return true;
-    return false;
-}
-
 static fm_status check_file(bundle_item *item, fm_error *err)
 {
     struct stat info;
@@ -36,8 +28,11 @@ static fm_status check_file(bundle_item *item, fm_error *err)
 
 fm_status items_add(bundle_items *items, const char *from, const char *to, fm_error *err)
 {
-    if (has_item(items, to))
+    const size_t at = text_index_add(&items->index, to, items->count);
+    if (at != items->count && at != FM_TEXT_INDEX_NONE)
         return FM_OK;
+    if (at == FM_TEXT_INDEX_NONE)
+        return fm_fail(err, FM_NO_MEMORY, "no memory for %zu files", items->count + 1);
     bundle_item *grown = reallocarray(items->items, items->count + 1, sizeof *grown);
     if (grown == NULL)
         return fm_fail(err, FM_NO_MEMORY, "no memory for %zu files", items->count + 1);
@@ -64,7 +59,7 @@ static fm_status add_entry(bundle_items *items, const FTSENT *entry, size_t skip
     char path[FM_PATH_MAX_BYTES];
     if (entry->fts_info == FTS_DNR || entry->fts_info == FTS_ERR || entry->fts_info == FTS_NS)
         return fm_fail(err, FM_IO, "%s: %s", entry->fts_path, strerror(entry->fts_errno));
-    if (entry->fts_info != FTS_F || !ends_as_one(entry->fts_name, endings))
+    if (entry->fts_info != FTS_F || (endings != NULL && !ends_as_one(entry->fts_name, endings)))
         return FM_OK;
     const fm_status status = path_join(path, to, entry->fts_path + skipped, err);
     return status == FM_OK ? items_add(items, entry->fts_path, path, err) : status;
@@ -95,6 +90,18 @@ uint64_t items_bytes(const bundle_items *items)
     for (size_t i = 0; i < items->count; i++)
         bytes += items->items[i].bytes;
     return bytes;
+}
+
+static int compare_items(const void *left, const void *right)
+{
+    const bundle_item *a = left, *b = right;
+    return strcmp(a->to, b->to);
+}
+
+void items_sort(bundle_items *items)
+{
+    if (items->count > 0)
+        qsort(items->items, items->count, sizeof *items->items, compare_items);
 }
 
 /* The folders above a file of the bundle; those of root are there. */
@@ -176,6 +183,7 @@ void items_free(bundle_items *items)
         free(items->items[i].to);
     }
     free(items->items);
+    text_index_free(&items->index);
     *items = (bundle_items){ 0 };
 }
 

@@ -22,6 +22,8 @@ enum {
     KEY_RETRY,
     KEY_FRESH,
     KEY_KEEP,
+    KEY_SHARD,
+    KEY_SHARD_REFERENCE,
 };
 
 static const struct argp_option selection_options[] = {
@@ -54,6 +56,12 @@ static const struct argp_option running_options[] = {
       "method "
       "handed over), truth (all of each pixel), frames (wrong tiles of sequences); nothing",
       0 },
+    { "shard", KEY_SHARD, "I/N", 0,
+      "the I-th of N parts of the cases, for one of N machines: whatever is compared stays "
+      "together; `fragmark merge` joins the folders and draws the report; all",
+      0 },
+    { "shard-reference", KEY_SHARD_REFERENCE, "METHOD", 0,
+      "its shortest case of each device and feed is measured in every shard; none; exact", 0 },
     { "no-images", KEY_NO_IMAGES, NULL, 0, "keep no images", 0 },
     { "no-report", KEY_NO_REPORT, NULL, 0, "CSV files only; `fragmark report DIR` draws later", 0 },
     { "validation", KEY_VALIDATION, NULL, 0, "open devices with API validation (times suffer)", 0 },
@@ -190,6 +198,13 @@ static error_t parse_running(int key, char *text, struct argp_state *state)
             argp_error(state, "-o: a path of 1 to %d bytes, please", FM_PATH_MAX_BYTES / 2 - 1);
         arguments->directory = text;
         return 0;
+    case KEY_SHARD:
+        require(state, shard_parse(&arguments->shard, text, &err), &err);
+        arguments->no_report = true; /* of the whole there is one, when it is merged */
+        return 0;
+    case KEY_SHARD_REFERENCE:
+        arguments->shard.reference = text;
+        return 0;
     case KEY_TIMEOUT:
         if (!text_to_u64(&number, text) || number == 0 || number > 1000000)
             argp_error(state, "--timeout %s: 1..1000000 seconds, please", text);
@@ -219,6 +234,10 @@ static error_t parse_running(int key, char *text, struct argp_state *state)
         return 0;
     case 'h':
         argp_state_help(state, state->out_stream, ARGP_HELP_STD_HELP);
+        return 0;
+    case ARGP_KEY_END:
+        if (arguments->shard.reference != NULL && arguments->shard.count == 0)
+            argp_error(state, "--shard-reference: of which --shard I/N?");
         return 0;
     default:
         return ARGP_ERR_UNKNOWN;
@@ -335,6 +354,11 @@ void cli_tell_left_out(FILE *talk, const fm_plan *plan, const fm_plugin_list *pl
                     plugins->entries[i].error.message);
 }
 
+fm_status arguments_shard(fm_plan *plan, const fm_arguments *arguments, fm_error *err)
+{
+    return arguments->shard.count > 0 ? plan_shard(plan, &arguments->shard, err) : FM_OK;
+}
+
 fm_status arguments_plan(fm_plan *plan, fm_plugin_list *plugins, const fm_arguments *arguments,
                          const char *const *specs, fm_error *err)
 {
@@ -353,5 +377,5 @@ fm_status arguments_plan(fm_plan *plan, fm_plugin_list *plugins, const fm_argume
         plan->seed = arguments->seed;
     if (status == FM_OK)
         cli_tell_left_out(arguments->cli->talk, plan, plugins);
-    return status;
+    return status == FM_OK ? arguments_shard(plan, arguments, err) : status;
 }

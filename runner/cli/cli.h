@@ -15,7 +15,7 @@
 #include "base/text.h"
 #include "device/registry.h"
 #include "model/exit_code.h"
-#include "plan/plan.h"
+#include "plan/shard.h"
 
 enum {
     CLI_DONE = FM_EXIT_DONE, /* model/exit_code.h says what each means */
@@ -70,8 +70,9 @@ typedef struct fm_arguments {
     const char *reference; /* for the report: NAME, DIR or none; NULL: not given */
     uint32_t timeout_s;
     uint64_t memory_bytes, seed;
-    uint32_t retried; /* statuses, as bits */
-    uint32_t kept;    /* kept_kind, as bits */
+    fm_shard_desc shard; /* count 0: the whole plan */
+    uint32_t retried;    /* statuses, as bits */
+    uint32_t kept;       /* kept_kind, as bits */
     bool has_seed, no_images, no_report, validation, no_timers, quiet, json, smoke, large, fresh;
 } fm_arguments;
 
@@ -98,6 +99,9 @@ void arguments_free(fm_arguments *arguments);
  * spec. */
 fm_status arguments_plan(fm_plan *plan, fm_plugin_list *plugins, const fm_arguments *arguments,
                          const char *const *specs, fm_error *err);
+
+/* Leaves of a plan what --shard asks for. FM_INVALID, FM_NO_MEMORY. */
+fm_status arguments_shard(fm_plan *plan, const fm_arguments *arguments, fm_error *err);
 
 /* Finds the plugins; folders: those of --plugin-dir. None is ever loaded into this process. */
 fm_status cli_find_plugins(fm_plugin_list *plugins, const fm_text_list *folders, fm_error *err);
@@ -150,6 +154,10 @@ int cli_run_plan(const fm_arguments *arguments, const cli_run_desc *desc);
 void cli_reasons(FILE *talk, const char *directory);
 /* -o, or out-UTC. */
 void cli_directory(char directory[FM_PATH_MAX_BYTES], const fm_arguments *arguments);
+/* DIR/specs: what was run, for the record. */
+void cli_keep_specs(const fm_text_list *paths, const char *directory);
+/* Adds a word, quoted where a shell needs it. */
+void cli_add_word(fm_text *text, const char *word);
 /* The words of a command line, quoted where a shell needs it; the caller frees it. NULL: no memory
  */
 char *cli_command_text(int argc, char **argv);
@@ -161,14 +169,15 @@ bool report_find(char path[FM_PATH_MAX_BYTES]);
  * error      the metric that is held against time; NULL: the default */
 int report_execute(const char *program, const char *directory, const char *reference,
                    const char *error);
+/* Draws what a run or a merge ends with: CLI_DONE, CLI_CLAIM_FAILS, or CLI_INCOMPLETE: the results
+ * are there, and the report is not, or it was drawn and lacks something, which the program has
+ * told. reference: as above. */
+int cli_draw_report(const fm_cli *cli, const char *directory, const char *reference);
 /* Before anything is measured: FM_INVALID or FM_IO if the reference that is asked for, or a figure
  * that the report is to draw, cannot be read. Says so if there is no fragmark-report. figures: ids,
  * ends with NULL. */
 fm_status report_expect(const fm_arguments *arguments, const char *const *figures, fm_error *err);
 /* Why there is no fragmark-report here: the beginning of a sentence. */
 const char *report_missing(void);
-
-/* Seconds that a plan may take; a guess from the number of fragments. */
-double plan_seconds(const fm_plan *plan);
 
 #endif

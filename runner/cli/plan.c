@@ -6,6 +6,7 @@
 #include "cli.h"
 #include "parent/mesh_look.h"
 #include "parent/progress.h"
+#include "plan/cost.h"
 
 enum { KEY_JSON = 512 };
 
@@ -35,37 +36,12 @@ static const struct argp argp = {
         "Examples:\n"
         "  fragmark plan --method kb,kplus-array -a k=4:16:*2\n"
         "  fragmark plan my.yml --json\n"
+        "  fragmark plan my.yml --shard 2/16     what one of 16 machines would measure\n"
         "\n"
         "Axes, with their values and (default):",
     .children = cli_spec_children,
     .help_filter = cli_axes_help,
 };
-
-/* Fragments of a scene before anything is drawn; a guess for meshes. */
-static double guessed_fragments(const fm_settings *settings)
-{
-    const double pixels = (double)settings->width_px * settings->height_px;
-    if (settings->generator != FM_GENERATOR_LAYERS)
-        return pixels * 4.0 * settings->instances;
-    return pixels * settings->pixel_density * settings->n * settings->fragment_probability;
-}
-
-/* Measured on two CPU cores with lavapipe: about 25 ns a fragment for a method's store, 7 ns for
- * the floor's, 200 ns to capture and check one; a GPU takes next to nothing. */
-double plan_seconds(const fm_plan *plan)
-{
-    double seconds = 0.0;
-    for (size_t i = 0; i < plan->count; i++) {
-        if (plan->cases[i].skip != NULL)
-            continue;
-        const fm_settings *settings = &plan->cases[i].settings;
-        const double fragments = guessed_fragments(settings);
-        const double frames = (double)settings->frames + settings->warmup;
-        seconds +=
-            plan_case_launches(plan, i) * (1.0 + frames * fragments * 32e-9) + fragments * 200e-9;
-    }
-    return seconds;
-}
 
 /* A key is told when the cases differ in it. */
 static bool varies(const fm_plan *plan, const fm_key *key)
@@ -114,6 +90,10 @@ static int write_table(const fm_cli *cli, const fm_plan *plan)
     }
     free(is_told);
     duration_text(duration, plan_seconds(plan));
+    if (plan->shard.count > 0)
+        fprintf(cli->talk, "shard %u of %u, of %zu cases in %zu groups that stay together: ",
+                plan->shard.index, plan->shard.count, plan->shard.case_count,
+                plan->shard.group_count);
     fprintf(cli->talk,
             "%zu cases, %zu to run: %u launches of %u frames each, seed %llu; about %s on two CPU "
             "cores (an estimate; a GPU is faster)\n",
@@ -189,7 +169,7 @@ static int plan_code(const fm_plan *plan, const fm_text_index *unread)
         failed += is_refused || is_unread(planned, unread);
         runnable += planned->skip == NULL && !is_unread(planned, unread);
     }
-    if (runnable == 0 && plan->count > 0)
+    if (runnable == 0 && plan->count > 0 && plan->shard.count == 0)
         return CLI_NOTHING;
     return failed > 0 ? CLI_SOME_FAILED : CLI_DONE;
 }

@@ -64,6 +64,22 @@ int report_execute(const char *program, const char *directory, const char *refer
     return execute(argv);
 }
 
+int cli_draw_report(const fm_cli *cli, const char *directory, const char *reference)
+{
+    char program[FM_PATH_MAX_BYTES];
+    if (!report_find(program))
+        return CLI_DONE; /* report_expect has told */
+    const int code = report_execute(program, directory, reference, NULL);
+    if (code == CLI_DONE || code == CLI_CLAIM_FAILS)
+        return code;
+    if (code == CLI_INCOMPLETE)
+        fprintf(cli->talk, "the report is missing or incomplete, as told above; ");
+    else
+        fprintf(cli->talk, "%s failed (%d); ", program, code);
+    fprintf(cli->talk, "again with: fragmark report %s\n", directory);
+    return CLI_INCOMPLETE;
+}
+
 /* Has the program itself try whatever it is to draw. */
 static fm_status check_inputs(const char *program, const char *reference,
                               const char *const *figures, fm_error *err)

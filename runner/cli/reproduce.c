@@ -1,7 +1,6 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/path.h"
@@ -82,6 +81,7 @@ static const struct argp argp = {
            "  fragmark reproduce KP-3             the figure that this claim is about\n"
            "  fragmark reproduce evr --seeds 5    its scenes made five times over\n"
            "  fragmark reproduce all --device vulkan:1\n"
+           "  fragmark reproduce all --shard 2/16 -o out/2     for one of 16 machines\n"
            "\n" CLI_EXIT_CODES,
     .children = children,
 };
@@ -217,22 +217,6 @@ static void close_specs(spec_files *specs)
     text_list_free(&specs->owners);
 }
 
-/* DIR/specs: what was run, for the record. */
-static void keep_specs(const spec_files *specs, const char *directory)
-{
-    char path[3 * FM_PATH_MAX_BYTES];
-    snprintf(path, sizeof path, "%s/specs", directory);
-    mkdir(path, 0777);
-    for (size_t i = 0; i < specs->paths.count; i++) {
-        char *bytes = NULL;
-        size_t count = 0;
-        snprintf(path, sizeof path, "%s/specs%s", directory, strrchr(specs->paths.items[i], '/'));
-        if (text_read_file(&bytes, &count, specs->paths.items[i], 1u << 20, NULL) == FM_OK)
-            text_write_file(path, bytes, count, NULL);
-        free(bytes);
-    }
-}
-
 /* Pictures are kept of figures that show them. */
 static void choose_pictures(fm_plan *plan, const fm_text_index *ids, const fm_plan *of_figure)
 {
@@ -269,7 +253,8 @@ static fm_status assign_cases(fm_text *csv, fm_plan *plan, const spec_files *spe
         const char *id = specs->owners.items[i];
         status = arguments_expand(&of_figure, plugins, arguments, specs->paths.items[i], err);
         for (size_t j = 0; j < of_figure.count && status == FM_OK; j++)
-            text_add(csv, "%s,%s\n", id, of_figure.cases[j].id);
+            if (text_index_find(&ids, of_figure.cases[j].id) != FM_TEXT_INDEX_NONE)
+                text_add(csv, "%s,%s\n", id, of_figure.cases[j].id);
         if (status == FM_OK && has_pictures(specs->list, id))
             choose_pictures(plan, &ids, &of_figure);
         plan_free(&of_figure);
@@ -309,7 +294,8 @@ static fm_status make_plan(fm_plan *plan, fm_plugin_list *plugins, const fm_argu
     if (specs->paths.count > 0)
         return arguments_plan(plan, plugins, arguments, text_list_items(&specs->paths), err);
     plan->launches = 1;
-    return cli_find_plugins(plugins, &arguments->plugin_folders, err);
+    const fm_status status = cli_find_plugins(plugins, &arguments->plugin_folders, err);
+    return status == FM_OK ? arguments_shard(plan, arguments, err) : status;
 }
 
 static int run_specs(const spec_files *specs, const fm_arguments *arguments)
@@ -336,7 +322,7 @@ static int run_specs(const spec_files *specs, const fm_arguments *arguments)
     else
         code = cli_run_plan(arguments, &desc);
     if (code != CLI_USAGE && code != CLI_DAMAGED)
-        keep_specs(specs, directory);
+        cli_keep_specs(&specs->paths, directory);
     text_free(&memory);
     text_free(&figure_cases);
     plan_free(&plan);

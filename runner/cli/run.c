@@ -4,6 +4,7 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -20,6 +21,7 @@ static const struct argp argp = {
         "  fragmark run --method kb,kplus-array -a k=4:16:*2 -o first\n"
         "  fragmark run --method all --device vulkan,osmesa -a n=32 -a launches=3\n"
         "  fragmark run my.yml --scene bunny -o my-results\n"
+        "  fragmark run my.yml --shard 2/16 -o shards/2     then: fragmark merge shards/* -o all\n"
         "\n"
         "A run that was stopped, or killed, goes on when the same command is given with the "
         "same -o. Results: DIR/summary.csv (a row a case), DIR/samples.csv (a row a sample), "
@@ -44,46 +46,49 @@ void cli_directory(char directory[FM_PATH_MAX_BYTES], const fm_arguments *argume
     strftime(directory, FM_PATH_MAX_BYTES, "out-%Y%m%dT%H%M%SZ", &utc);
 }
 
+void cli_keep_specs(const fm_text_list *paths, const char *directory)
+{
+    char path[3 * FM_PATH_MAX_BYTES];
+    snprintf(path, sizeof path, "%s/specs", directory);
+    if (paths->count > 0)
+        mkdir(path, 0777);
+    for (size_t i = 0; i < paths->count; i++) {
+        char *bytes = NULL;
+        size_t count = 0;
+        const char *slash = strrchr(paths->items[i], '/');
+        snprintf(path, sizeof path, "%s/specs/%s", directory,
+                 slash != NULL ? slash + 1 : paths->items[i]);
+        if (text_read_file(&bytes, &count, paths->items[i], 1u << 20, NULL) == FM_OK)
+            text_write_file(path, bytes, count, NULL);
+        free(bytes);
+    }
+}
+
+void cli_add_word(fm_text *text, const char *word)
+{
+    const bool is_plain =
+        word[0] != '\0' && word[strcspn(word, " \t\n'\"*?$`\\()[]{}<>|&;#~!")] == '\0';
+    if (is_plain) {
+        text_add(text, "%s", word);
+        return;
+    }
+    text_add(text, "'");
+    for (const char *c = word; *c != '\0'; c++)
+        text_add(text, *c == '\'' ? "'\\''" : "%c", *c);
+    text_add(text, "'");
+}
+
 char *cli_command_text(int argc, char **argv)
 {
     fm_text text = { 0 };
-    for (int i = 0; i < argc; i++) {
-        /* argv[0] is "fragmark NAME": our own, two words. */
-        const bool is_plain =
-            i == 0 || (argv[i][0] != '\0' &&
-                       argv[i][strcspn(argv[i], " \t\n'\"*?$`\\()[]{}<>|&;#~!")] == '\0');
-        text_add(&text, "%s", i > 0 ? " " : "");
-        if (is_plain) {
-            text_add(&text, "%s", argv[i]);
-            continue;
-        }
-        text_add(&text, "'");
-        for (const char *c = argv[i]; *c != '\0'; c++)
-            text_add(&text, *c == '\'' ? "'\\''" : "%c", *c);
-        text_add(&text, "'");
+    text_add(&text, "%s", argv[0]); /* "fragmark NAME": our own, two words */
+    for (int i = 1; i < argc; i++) {
+        text_add(&text, " ");
+        cli_add_word(&text, argv[i]);
     }
     if (text.failed)
         text_free(&text);
     return text.bytes;
-}
-
-/* CLI_DONE, CLI_CLAIM_FAILS, or CLI_INCOMPLETE: the results are there, and the report is not, or
- * it was drawn and lacks something, which the program has told. */
-static int report(const fm_arguments *arguments, const char *directory)
-{
-    const fm_cli *cli = arguments->cli;
-    char program[FM_PATH_MAX_BYTES];
-    if (!report_find(program))
-        return CLI_DONE; /* report_expect has told */
-    const int code = report_execute(program, directory, arguments->reference, NULL);
-    if (code == CLI_DONE || code == CLI_CLAIM_FAILS)
-        return code;
-    if (code == CLI_INCOMPLETE)
-        fprintf(cli->talk, "the report is missing or incomplete, as told above; ");
-    else
-        fprintf(cli->talk, "%s failed (%d); ", program, code);
-    fprintf(cli->talk, "again with: fragmark report %s\n", directory);
-    return CLI_INCOMPLETE;
 }
 
 static int exit_code(const fm_run_result *result, const fm_plan *plan)
@@ -92,7 +97,9 @@ static int exit_code(const fm_run_result *result, const fm_plan *plan)
         return CLI_SIGNAL + result->stop_signal;
     if (result->failed > 0)
         return CLI_SOME_FAILED;
-    return result->ok > 0 || plan->count == 0 ? CLI_DONE : CLI_NOTHING;
+    /* A shard may have nothing but cases that cannot run: the whole has others. */
+    const bool needs_none = plan->count == 0 || plan->shard.count > 0;
+    return result->ok > 0 || needs_none ? CLI_DONE : CLI_NOTHING;
 }
 
 /* Whoever reads a time must know what it was measured beside. */
@@ -203,9 +210,10 @@ int cli_run_plan(const fm_arguments *arguments, const cli_run_desc *desc)
     if (status != FM_OK)
         return failed;
     const int code = exit_code(&result, desc->plan);
-    const int reported = result.stop_signal == 0 && !arguments->no_report
-                             ? report(arguments, desc->directory)
-                             : CLI_DONE;
+    const int reported =
+        result.stop_signal == 0 && !arguments->no_report
+            ? cli_draw_report(arguments->cli, desc->directory, arguments->reference)
+            : CLI_DONE;
     return reported != CLI_DONE ? reported : code;
 }
 
@@ -232,6 +240,8 @@ int cli_run(const fm_cli *cli, int argc, char **argv)
                                     .plugins = &plugins,
                                     .figures = none };
         code = cli_run_plan(&arguments, &desc);
+        if (code != CLI_USAGE && code != CLI_DAMAGED)
+            cli_keep_specs(&arguments.positional, directory);
     }
     plan_free(&plan);
     plugin_list_close(&plugins);

@@ -5,6 +5,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "code/code_json.h"
 #include "git_commit.h"
 #include "machine.h"
 #include "model/family.h"
@@ -150,6 +151,26 @@ static json_t *figures_json(const char *const *figures)
     return list;
 }
 
+/* What was read while rows were measured, each content once: what of it differs is told by files.
+ */
+static json_t *codes_json(const fm_results *results)
+{
+    json_t *codes = json_array();
+    for (size_t i = 0; i < results->codes.count; i++)
+        json_array_append_new(codes, code_to_json(&results->codes.codes[i]));
+    return codes;
+}
+
+/* NULL: the run is of a whole plan. */
+static json_t *shard_json(const fm_shard *shard)
+{
+    return shard->count == 0
+               ? NULL
+               : json_pack("{s:i, s:i, s:s, s:I, s:s}", "index", (int)shard->index, "count",
+                           (int)shard->count, "plan", shard->plan, "cases",
+                           (json_int_t)shard->case_count, "reference", shard->reference);
+}
+
 static json_t *manifest_json(const fm_manifest_desc *desc)
 {
     const fm_results *results = desc->results;
@@ -161,7 +182,7 @@ static json_t *manifest_json(const fm_manifest_desc *desc)
     strftime(ended, sizeof ended, "%Y-%m-%dT%H:%M:%SZ", &utc);
     return json_pack(
         "{s:i, s:s, s:s, s:s, s:o?, s:I, s:i, s:i, s:i, s:b, s:b, s:s, s:s?, s:o, s:o, s:o, s:o, "
-        "s:o, s:o, s:O?}",
+        "s:o, s:o, s:O?, s:o, s:o*}",
         "schema", 1, "fragmark", FM_VERSION, "git_commit", FM_GIT_COMMIT, "run_id", results->run_id,
         "command", desc->run->command != NULL ? text_json(desc->run->command) : NULL, "seed",
         (json_int_t)plan->seed, "launches", (int)plan->launches, "frames", (int)plan->frames,
@@ -169,7 +190,8 @@ static json_t *manifest_json(const fm_manifest_desc *desc)
         (int)desc->run->no_timers, "started", desc->started, "ended", desc->is_ended ? ended : NULL,
         "figures", figures_json(desc->run->figures), "machine", machine_json(results), "devices",
         devices_json(results), "methods", methods_json(results), "scenes", scenes_json(results),
-        "modelled", modelled_json(results), "meshes", results->meshes);
+        "modelled", modelled_json(results), "meshes", results->meshes, "codes", codes_json(results),
+        "shard", shard_json(&plan->shard));
 }
 
 fm_status manifest_write(const fm_manifest_desc *desc, fm_error *err)

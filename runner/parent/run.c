@@ -152,6 +152,17 @@ static fm_status write_figure_cases(const run_state *run, fm_error *err)
     return status == FM_OK ? text_write_file(path, csv->bytes, csv->length, err) : status;
 }
 
+/* Which shard each case of the whole plan is in, for whoever merges them. */
+static fm_status write_shard(const run_state *run, fm_error *err)
+{
+    const fm_text *csv = &run->plan->shard.table;
+    char path[FM_PATH_MAX_BYTES];
+    if (run->plan->shard.count == 0)
+        return FM_OK;
+    const fm_status status = run_path(path, run, FM_SHARD_TABLE, "", "", err);
+    return status == FM_OK ? text_write_file(path, csv->bytes, csv->length, err) : status;
+}
+
 static fm_status prepare(run_state *run, fm_error *err)
 {
     fm_status status = truth_jobs_create(&run->truths, run->plan, run->plugins, err);
@@ -164,6 +175,8 @@ static fm_status prepare(run_state *run, fm_error *err)
     run->is_resumed = status == FM_OK;
     if (status == FM_OK)
         status = write_figure_cases(run, err);
+    if (status == FM_OK)
+        status = write_shard(run, err);
     if (status == FM_OK)
         status = write_manifest(run, false, err);
     if (status == FM_OK)

@@ -1,29 +1,8 @@
 /* What an earlier run in the same directory left, from its journal. */
 #include <stdlib.h>
 #include <string.h>
-#include <xxhash.h>
 
 #include "run_internal.h"
-
-/* What makes two runs the same run: what they measure, how often, and in which order. */
-static void plan_hash(char hash[17], const fm_plan *plan, const fm_run_desc *desc)
-{
-    XXH3_state_t *state = XXH3_createState();
-    const uint64_t numbers[] = { plan->seed,   plan->launches,   plan->frames,
-                                 plan->warmup, desc->validation, desc->no_timers };
-    hash[0] = '\0';
-    if (state == NULL)
-        return;
-    XXH3_64bits_reset(state);
-    XXH3_64bits_update(state, numbers, sizeof numbers);
-    for (size_t i = 0; i < plan->count; i++) {
-        const uint32_t launches = plan_case_launches(plan, i);
-        XXH3_64bits_update(state, plan->cases[i].id, strlen(plan->cases[i].id) + 1);
-        XXH3_64bits_update(state, &launches, sizeof launches);
-    }
-    snprintf(hash, 17, "%016llx", (unsigned long long)XXH3_64bits_digest(state));
-    XXH3_freeState(state);
-}
 
 static fm_status replay_event(run_state *run, fm_journal_event event, size_t i, uint32_t launch,
                               const json_t *result, fm_error *err)
@@ -105,10 +84,15 @@ static void tell_refused(const fm_plan *plan, fm_error *err)
 
 fm_status run_resume(run_state *run, fm_error *err)
 {
-    char hash[17];
-    plan_hash(hash, run->plan, run->desc);
+    char hash[17], shard[24];
+    const fm_shard *part = &run->plan->shard;
+    plan_hash(hash, run->plan, run->desc->validation, run->desc->no_timers);
+    snprintf(shard, sizeof shard, "%u/%u", part->index, part->count);
+    const fm_journal_plan plan = { .hash = hash,
+                                   .shard = part->count > 0 ? shard : NULL,
+                                   .whole = part->count > 0 ? part->plan : NULL };
     fm_status status =
-        journal_open(&run->journal, run->desc->directory, hash, &run->is_damaged, err);
+        journal_open(&run->journal, run->desc->directory, &plan, &run->is_damaged, err);
     if (status == FM_INVALID)
         tell_refused(run->plan, err);
     if (status == FM_OK)

@@ -1,7 +1,9 @@
 #include "plan.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <xxhash.h>
 
 #include "base/text_index.h"
 #include "chosen.h"
@@ -195,7 +197,32 @@ void plan_free(fm_plan *plan)
     for (size_t i = 0; i < plan->count; i++)
         plan_case_release(&plan->cases[i]);
     free(plan->cases);
+    text_free(&plan->shard.table);
     *plan = (fm_plan){ 0 };
+}
+
+void plan_hash(char hash[17], const fm_plan *plan, bool validation, bool no_timers)
+{
+    XXH3_state_t *state = XXH3_createState();
+    const uint64_t numbers[] = { plan->seed,   plan->launches, plan->frames,
+                                 plan->warmup, validation,     no_timers };
+    const uint32_t shard[] = { plan->shard.index, plan->shard.count };
+    hash[0] = '\0';
+    if (state == NULL)
+        return;
+    XXH3_64bits_reset(state);
+    XXH3_64bits_update(state, numbers, sizeof numbers);
+    for (size_t i = 0; i < plan->count; i++) {
+        const uint32_t launches = plan_case_launches(plan, i);
+        XXH3_64bits_update(state, plan->cases[i].id, strlen(plan->cases[i].id) + 1);
+        XXH3_64bits_update(state, &launches, sizeof launches);
+    }
+    if (plan->shard.count > 0) {
+        XXH3_64bits_update(state, shard, sizeof shard);
+        XXH3_64bits_update(state, plan->shard.plan, strlen(plan->shard.plan));
+    }
+    snprintf(hash, 17, "%016llx", (unsigned long long)XXH3_64bits_digest(state));
+    XXH3_freeState(state);
 }
 
 bool plan_index_ids(fm_text_index *ids, const fm_plan *plan)

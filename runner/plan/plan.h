@@ -9,6 +9,7 @@
 #include <stddef.h>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "base/text_index.h"
 #include "device/registry.h"
 #include "model/descriptor.h"
@@ -55,12 +56,25 @@ typedef struct fm_plan_request {
                                 or feed, which add to the lists above */
 } fm_plan_request;
 
+#define FM_SHARD_TABLE "shard.csv" /* in the folder of a shard's results */
+
+/* Which part of a plan this is; plan/shard.h makes it. */
+typedef struct fm_shard {
+    uint32_t index, count; /* 1..count; count 0: the plan is whole */
+    char plan[17];         /* plan_hash of the whole plan */
+    size_t case_count;     /* of the whole plan */
+    size_t group_count;    /* of cases that stay together: more shards than that have none */
+    char reference[64];    /* method whose cases are in every shard; "": none */
+    fm_text table;         /* shard.csv: the shard of each case of the whole plan; owned */
+} fm_shard;
+
 typedef struct fm_plan {
     fm_case *cases;
     size_t count;
     uint64_t seed;           /* of the order of launches */
     uint32_t launches;       /* the most of any case */
     uint32_t frames, warmup; /* the same */
+    fm_shard shard;
 } fm_plan;
 
 enum { FM_PLAN_MAX_CASES = 100000 }; /* before equal ones become one */
@@ -81,6 +95,9 @@ fm_status plan_expand(fm_plan *plan, const fm_plan_request *request, const fm_pl
  * FM_NO_MEMORY: nothing was taken. */
 fm_status plan_merge(fm_plan *plan, fm_plan *more, fm_error *err);
 void plan_free(fm_plan *plan);
+/* What makes two runs the same run: what they measure, how often, in which order, and which shard
+ * of a plan they are. 16 hex digits; "": no memory. */
+void plan_hash(char hash[17], const fm_plan *plan, bool validation, bool no_timers);
 /* Adds the id of each case, with its place in the plan. false: no memory. */
 bool plan_index_ids(fm_text_index *ids, const fm_plan *plan);
 /* How often a case is launched: as often as the plan says, but once if it is simulated and nobody

@@ -16,7 +16,6 @@
 struct fm_journal {
     int fd;
     char path[FM_PATH_MAX_BYTES];
-    char plan_hash[17];
     char run_id[17];
     char started[32];
     off_t begin; /* of the first line after the plan's */
@@ -65,7 +64,7 @@ out:
     return status;
 }
 
-static fm_status begin_plan(fm_journal *journal, fm_error *err)
+static fm_status begin_plan(fm_journal *journal, const fm_journal_plan *plan, fm_error *err)
 {
     struct timespec now;
     struct tm utc;
@@ -75,8 +74,9 @@ static fm_status begin_plan(fm_journal *journal, fm_error *err)
     const int64_t unique[3] = { now.tv_sec, now.tv_nsec, getpid() };
     snprintf(journal->run_id, sizeof journal->run_id, "%016llx",
              (unsigned long long)XXH3_64bits(unique, sizeof unique));
-    json_t *line = json_pack("{s:s, s:s, s:s, s:s}", "event", "plan", "plan", journal->plan_hash,
-                             "run_id", journal->run_id, "started", journal->started);
+    json_t *line = json_pack("{s:s, s:s, s:s, s:s, s:s*, s:s*}", "event", "plan", "plan",
+                             plan->hash, "run_id", journal->run_id, "started", journal->started,
+                             "shard", plan->shard, "whole", plan->whole);
     const fm_status status = write_line(journal, line, err);
     json_decref(line);
     journal->begin = lseek(journal->fd, 0, SEEK_END);
@@ -97,24 +97,30 @@ static bool is_hash(const char *digits)
     return strlen(digits) == 16 && strspn(digits, "0123456789abcdef") == 16;
 }
 
-static fm_status check_plan(fm_journal *journal, const fm_text *text, bool *is_damaged,
-                            fm_error *err)
+static fm_status other_plan(const fm_journal *journal, const char *shard, fm_error *err)
 {
-    const char *event, *plan, *run_id, *started;
+    return fm_fail(err, FM_INVALID,
+                   "%s belongs to another plan (%s%s%sother cases, launches, frames or seed, or "
+                   "other versions of methods or meshes): repeat its command to continue it, or "
+                   "choose another -o",
+                   journal->path, shard != NULL ? "it is shard " : "", shard != NULL ? shard : "",
+                   shard != NULL ? "; or " : "");
+}
+
+static fm_status check_plan(fm_journal *journal, const fm_text *text, const fm_journal_plan *wanted,
+                            bool *is_damaged, fm_error *err)
+{
+    const char *event, *plan, *run_id, *started, *shard = NULL;
     json_t *line = json_loadb(text->bytes, text->length, JSON_REJECT_DUPLICATES, NULL);
     fm_status status = FM_OK;
-    if (json_unpack(line, "{s:s, s:s, s:s, s:s}", "event", &event, "plan", &plan, "run_id", &run_id,
-                    "started", &started) != 0 ||
+    if (json_unpack(line, "{s:s, s:s, s:s, s:s, s?s}", "event", &event, "plan", &plan, "run_id",
+                    &run_id, "started", &started, "shard", &shard) != 0 ||
         strcmp(event, "plan") != 0 || !is_hash(plan) || !is_hash(run_id) ||
         strspn(started, "0123456789-T:Z") != strlen(started) ||
         strlen(started) >= sizeof journal->started)
         status = foreign(journal, is_damaged, err);
-    else if (strcmp(plan, journal->plan_hash) != 0)
-        status = fm_fail(err, FM_INVALID,
-                         "%s belongs to another plan (other cases, launches, frames or seed, or "
-                         "other versions of methods or meshes): repeat its command to continue "
-                         "it, or choose another -o",
-                         journal->path);
+    else if (strcmp(plan, wanted->hash) != 0)
+        status = other_plan(journal, shard, err);
     else {
         snprintf(journal->run_id, sizeof journal->run_id, "%s", run_id);
         snprintf(journal->started, sizeof journal->started, "%s", started);
@@ -153,7 +159,8 @@ static fm_status reading_stream(FILE **file, const fm_journal *journal, off_t fr
 
 /* Reads the plan's line, or writes it in a new file. A first line without its end is that of a run
  * which was killed at once, if it looks like one. */
-static fm_status open_plan(fm_journal *journal, bool *is_damaged, fm_error *err)
+static fm_status open_plan(fm_journal *journal, const fm_journal_plan *plan, bool *is_damaged,
+                           fm_error *err)
 {
     fm_text text = { 0 };
     FILE *file = NULL;
@@ -165,7 +172,7 @@ static fm_status open_plan(fm_journal *journal, bool *is_damaged, fm_error *err)
     if (kind == LINE_WHOLE && !text.failed) {
         journal->begin = ftello(file);
         journal->is_continued = true;
-        status = check_plan(journal, &text, is_damaged, err);
+        status = check_plan(journal, &text, plan, is_damaged, err);
     } else if (kind == LINE_LONG || text.length > PLAN_LINE_MAX_BYTES ||
                strncmp(text.bytes != NULL ? text.bytes : "", plan_line_start,
                        text.length < start_length ? text.length : start_length) != 0)
@@ -173,7 +180,7 @@ static fm_status open_plan(fm_journal *journal, bool *is_damaged, fm_error *err)
     else if (ftruncate(journal->fd, 0) != 0)
         status = fm_fail(err, FM_IO, "%s: %s", journal->path, strerror(errno));
     else
-        status = begin_plan(journal, err);
+        status = begin_plan(journal, plan, err);
     text_free(&text);
     fclose(file);
     return status;
@@ -194,7 +201,7 @@ bool journal_is_begun(const char *directory)
     return is_begun;
 }
 
-fm_status journal_open(fm_journal **journal, const char *directory, const char *plan_hash,
+fm_status journal_open(fm_journal **journal, const char *directory, const fm_journal_plan *plan,
                        bool *is_damaged, fm_error *err)
 {
     fm_status status = FM_OK;
@@ -205,7 +212,6 @@ fm_status journal_open(fm_journal **journal, const char *directory, const char *
     if (opened == NULL)
         return fm_fail(err, FM_NO_MEMORY, "no memory for the journal");
     opened->fd = -1;
-    snprintf(opened->plan_hash, sizeof opened->plan_hash, "%s", plan_hash);
     status = path_join(opened->path, directory, journal_name, err);
     if (status != FM_OK)
         goto out;
@@ -221,7 +227,7 @@ fm_status journal_open(fm_journal **journal, const char *directory, const char *
                          errno == EWOULDBLOCK ? "another run is writing here" : strerror(errno));
         goto out;
     }
-    status = open_plan(opened, is_damaged, err);
+    status = open_plan(opened, plan, is_damaged, err);
     if (status != FM_OK)
         goto out;
     *journal = opened;

@@ -1,5 +1,6 @@
 /* journal.jsonl: what a killed run resumes from. One JSON object a line, flushed to disk:
- *   {"event":"plan","plan":HASH,"run_id":ID,"started":UTC}   first
+ *   {"event":"plan","plan":HASH,"run_id":ID,"started":UTC}   first; of a shard also "shard":"2/16"
+ *                                                            and "whole":HASH of the whole plan
  *   {"event":"begin","case":ID,"launch":0}                   before a launch
  *   {"event":"end","case":ID,"launch":0,"result":{...}}      after it
  *   {"event":"died","case":ID,"launch":0,"result":{...}}     its worker died the first time: how
@@ -36,10 +37,17 @@ typedef struct fm_journal_reader {
     void *context;
 } fm_journal_reader;
 
+/* Whose journal it is; borrowed. */
+typedef struct fm_journal_plan {
+    const char *hash;  /* plan_hash: a journal of another one is refused */
+    const char *shard; /* "2/16", and the hash of the whole plan: for the record; NULL: no shard */
+    const char *whole;
+} fm_journal_plan;
+
 /* Opens or makes DIRECTORY/journal.jsonl.
  * FM_INVALID: in use by another run, or of another plan. FM_IO: damaged, foreign or not writable;
  * *is_damaged tells the first two. */
-fm_status journal_open(fm_journal **journal, const char *directory, const char *plan_hash,
+fm_status journal_open(fm_journal **journal, const char *directory, const fm_journal_plan *plan,
                        bool *is_damaged, fm_error *err);
 /* Whether the directory has a journal with a first line: without one, results there are not ours.
  */

@@ -42,7 +42,8 @@ static void replay(parent_kit *kit, const char *path, const uint8_t *bytes, size
     bool is_damaged = false;
     fm_error err = { 0 };
     const fm_journal_reader reader = { .line = take, .context = kit };
-    fm_status status = journal_open(&journal, kit->folder, KIT_PLAN_HASH, &is_damaged, &err);
+    const fm_journal_plan plan = { .hash = KIT_PLAN_HASH };
+    fm_status status = journal_open(&journal, kit->folder, &plan, &is_damaged, &err);
     if (status == FM_OK)
         status = journal_replay(journal, &reader, &is_damaged, &err);
     fuzz_expect_reason(status, &err);

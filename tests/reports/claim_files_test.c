@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/table.h"
 #include "claims_kit.h"
 #include "read/paper_figure.h"
-#include "read/table.h"
 
 enum { FIGURES_MAX = 64, FAMILIES = 4, CLAIMS_MAX = 26 };
 

@@ -14,12 +14,12 @@
 
 #include <cmocka.h>
 
+#include "base/table.h"
 #include "base/text.h"
 #include "claims/verdicts.h"
 #include "image/image.h"
 #include "read/paper_figure.h"
 #include "read/result_files.h"
-#include "read/table.h"
 
 /* One fabricated case. Its launches have one frame each, and spread over `noise`. */
 typedef struct fake {

@@ -3,9 +3,9 @@
 
 #include <jansson.h>
 
+#include "base/table.h"
 #include "draw/dumbbell.h"
 #include "page/comparison_page.h"
-#include "read/table.h"
 
 /* One case of each kind, with texts that must be quoted. */
 static void make_mixed(kit_comparison *kit)

@@ -14,6 +14,7 @@
 
 #include <cmocka.h>
 
+#include "base/table.h"
 #include "base/text.h"
 #include "draw/axis.h"
 #include "draw/chart.h"
@@ -24,7 +25,6 @@
 #include "read/group.h"
 #include "read/paper_figure.h"
 #include "read/result_files.h"
-#include "read/table.h"
 
 static const char header[] =
     "schema,case_id,status,message,method,method_version,device,device_name,feed,scene,width_px,"

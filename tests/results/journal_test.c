@@ -10,6 +10,7 @@
 
 static const char *const NO_IDS[] = { NULL };
 static const char PLAN[] = "0123456789abcdef";
+static const fm_journal_plan the_plan = { .hash = PLAN };
 
 /* What a replay told, as text: "begin a 0|end a 0 ok|". */
 typedef struct heard {
@@ -34,7 +35,7 @@ static fm_journal *opened(const fake_plan *fake)
     fm_journal *journal = NULL;
     bool is_damaged = true;
     fm_error err = { 0 };
-    if (journal_open(&journal, fake->folder, PLAN, &is_damaged, &err) != FM_OK)
+    if (journal_open(&journal, fake->folder, &the_plan, &is_damaged, &err) != FM_OK)
         fail_msg("%s", err.message);
     assert_false(is_damaged);
     return journal;
@@ -282,7 +283,7 @@ static void journal_refuses_a_pipe_without_waiting(void **state)
     snprintf(path, sizeof path, "%s/journal.jsonl", fake.folder);
     assert_int_equal(mkfifo(path, 0666), 0);
     alarm(10);
-    assert_int_equal(journal_open(&journal, fake.folder, PLAN, &is_damaged, &err), FM_IO);
+    assert_int_equal(journal_open(&journal, fake.folder, &the_plan, &is_damaged, &err), FM_IO);
     alarm(0);
     assert_true(is_damaged);
     assert_non_null(strstr(err.message, "is a pipe, not a file"));
@@ -296,12 +297,13 @@ static void refuses(const char *content, const char *plan, fm_status expected, c
     fm_journal *journal = NULL;
     bool is_damaged = false;
     fm_error err = { 0 };
+    const fm_journal_plan given = { .hash = plan };
     fake_open(&fake, NO_IDS, 1);
     if (content != NULL)
         fake_write(&fake, "journal.jsonl", content, "w");
     else
         journal_close(opened(&fake));
-    assert_int_equal(journal_open(&journal, fake.folder, plan, &is_damaged, &err), expected);
+    assert_int_equal(journal_open(&journal, fake.folder, &given, &is_damaged, &err), expected);
     assert_null(journal);
     assert_int_equal(is_damaged, damage);
     assert_non_null(strstr(err.message, words));
@@ -336,7 +338,7 @@ static void journal_refuses_a_folder_in_use(void **state)
     fm_error err = { 0 };
     fake_open(&fake, NO_IDS, 1);
     fm_journal *first = opened(&fake);
-    assert_int_equal(journal_open(&second, fake.folder, PLAN, &is_damaged, &err), FM_INVALID);
+    assert_int_equal(journal_open(&second, fake.folder, &the_plan, &is_damaged, &err), FM_INVALID);
     assert_non_null(strstr(err.message, "another run is writing here"));
     journal_close(first);
     fake_close(&fake);

@@ -5,8 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "base/path.h"
-#include "model/metrics.h"
+#include "path.h"
 
 enum { FM_TABLE_COLUMNS = 256, FM_TABLE_CELL_BYTES = 65536 };
 #define FM_TABLE_BYTES     ((size_t)1 << 30)
@@ -39,9 +38,6 @@ const char *table_cell(const fm_table *table, size_t row, size_t column); /* no 
 fm_status table_number(double *value, const fm_table *table, size_t row, size_t column,
                        fm_error *err);
 
-/* The same; FM_INVALID also for what is beyond the range. An empty cell is of every range. */
-fm_status table_in_range(double *value, fm_metric_range range, const fm_table *table, size_t row,
-                         size_t column, fm_error *err);
 /* The schema of the rows, which a column `schema` tells: each must have the one that is known.
  * FM_INVALID, naming file, line and both. A file without that column is none of a run's. */
 fm_status table_check_schema(const fm_table *table, const char *known, fm_error *err);
