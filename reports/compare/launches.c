@@ -56,39 +56,56 @@ static bool is_first_of_launch(const launch_values *values, size_t index)
     return true;
 }
 
-/* At most one a sample, so that ratios fit where samples do. */
-static size_t fill_ratios(double *ratios, const launch_values *metric, const launch_values *over,
-                          double *room)
+fm_status launches_numbers(fm_launch_numbers **numbers, size_t *count,
+                           const fm_result_files *results, const fm_case_row *row,
+                           const char *metric, const char *over, fm_error *err)
 {
-    size_t count = 0;
-    for (size_t i = 0; i < metric->count; i++) {
-        const uint32_t launch = metric->launch_of[i];
-        if (!is_first_of_launch(metric, i))
-            continue;
-        const double ratio = median_of(metric, launch, room) / median_of(over, launch, room);
-        if (isfinite(ratio))
-            ratios[count++] = ratio;
+    const fm_sample_rows *samples = &results->samples;
+    const size_t index = (size_t)(row - results->cases);
+    const size_t most = samples->first[index + 1] - samples->first[index] + 1;
+    launch_values of, floor;
+    fm_launch_numbers *made = calloc(most, sizeof *made);
+    double *room = calloc(most, sizeof *room);
+    const bool has_of = open_values(&of, most), has_floor = open_values(&floor, most);
+    const bool has_memory = made != NULL && room != NULL && has_of && has_floor;
+    *numbers = NULL;
+    *count = 0;
+    if (has_memory) {
+        fill(&of, samples, index, metric);
+        fill(&floor, samples, index, over);
+        for (size_t i = 0; i < of.count; i++) {
+            const uint32_t launch = of.launch_of[i];
+            if (is_first_of_launch(&of, i))
+                made[(*count)++] = (fm_launch_numbers){ launch, median_of(&of, launch, room),
+                                                        median_of(&floor, launch, room) };
+        }
+        *numbers = made;
+        made = NULL;
     }
-    return count;
+    close_values(&floor);
+    close_values(&of);
+    free(room);
+    free(made);
+    return has_memory ? FM_OK : fm_fail(err, FM_NO_MEMORY, "no memory for %zu samples", most);
 }
 
 fm_interval launches_ratio(const fm_result_files *results, const fm_case_row *row,
                            const char *metric, const char *over)
 {
-    const fm_sample_rows *samples = &results->samples;
-    const size_t index = (size_t)(row - results->cases);
-    const size_t most = samples->first[index + 1] - samples->first[index] + 1;
     fm_interval interval = { NAN, NAN, NAN };
-    launch_values of, floor;
-    double *ratios = calloc(2 * most, sizeof *ratios);
-    const bool has_of = open_values(&of, most), has_floor = open_values(&floor, most);
-    if (ratios != NULL && has_of && has_floor) {
-        fill(&of, samples, index, metric);
-        fill(&floor, samples, index, over);
-        interval = stats_interval(ratios, fill_ratios(ratios, &of, &floor, ratios + most));
+    fm_launch_numbers *numbers;
+    size_t count, kept = 0;
+    if (launches_numbers(&numbers, &count, results, row, metric, over, NULL) != FM_OK)
+        return interval;
+    double *ratios = calloc(count + 1, sizeof *ratios);
+    for (size_t i = 0; i < count && ratios != NULL; i++) {
+        const double ratio = numbers[i].value / numbers[i].over;
+        if (isfinite(ratio))
+            ratios[kept++] = ratio;
     }
-    close_values(&floor);
-    close_values(&of);
+    if (ratios != NULL)
+        interval = stats_interval(ratios, kept);
     free(ratios);
+    free(numbers);
     return interval;
 }

@@ -15,9 +15,8 @@ typedef struct fm_machine_fact {
 typedef struct fm_machines {
     fm_machine_fact *differing; /* [count]; texts are the manifests' */
     size_t count;
-    /* Same processor, cores, memory (within 2 %, which kernels differ by) and devices' names. What
-     * two runs do not tell is not the same. Drivers and kernels may differ: they are what may have
-     * become slower. */
+    /* Same hardware (hardware.h) and devices' names. What two runs do not tell is not the same.
+     * Drivers and kernels may differ: they are what may have become slower. */
     bool is_same_machine;
     bool is_same_day; /* both began on the same day, UTC */
 } fm_machines;
