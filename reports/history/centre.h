@@ -6,7 +6,7 @@
 
 typedef struct fm_centre {
     double ratio;          /* NAN: no launch */
-    double standard_error; /* of its logarithm; NAN: fewer than two launches */
+    double standard_error; /* of its logarithm; NAN: one launch, or three, of which one is kept */
     size_t launches;
 } fm_centre;
 

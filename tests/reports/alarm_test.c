@@ -119,6 +119,8 @@ static void a_centre_leaves_out_the_ends(void **state)
     assert_true(fabs(centre_of(twelve, 12).ratio - 2.0) < 1e-12);
     assert_true(isnan(centre_of(two, 0).ratio));
     assert_true(isnan(centre_of(two, 1).standard_error));
+    assert_true(isnan(centre_of(three, 3).standard_error));
+    assert_true(centre_of(two, 2).standard_error > 0);
 }
 
 /* The standard error is how far the centre really moves: within a tenth, of 40 launches. */

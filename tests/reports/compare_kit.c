@@ -75,13 +75,15 @@ void kit_open(kit_run *run, const kit_run_desc *desc)
     for (size_t i = 0; i < desc->row_count; i++)
         add_row(&summary, desc->rows[i], i);
     add_samples(&samples, desc->samples);
-    text_add(&manifest,
-             "{\"schema\": 1, \"started\": \"%s\", \"machine\": {%s}, \"methods\": {"
-             "\"a\": {\"defaults\": \"x=1 y=2\"}, \"racy\": {\"traits\": [\"racy\"]}}, "
-             "\"devices\": [{\"selector\": \"vulkan\", \"name\": \"llvmpipe\", \"driver\": "
-             "\"Mesa\"}]}",
-             desc->started != NULL ? desc->started : "2026-01-02T03:04:05Z",
-             desc->machine != NULL ? desc->machine : usual_machine);
+    text_add(
+        &manifest,
+        "{\"schema\": 1, \"run_id\": \"%s\", \"started\": \"%s\", \"machine\": {%s}, \"methods\": {"
+        "\"a\": {\"defaults\": \"x=1 y=2\"}, \"racy\": {\"traits\": [\"racy\"]}}, "
+        "\"devices\": [{\"selector\": \"vulkan\", \"name\": \"llvmpipe\", \"driver\": "
+        "\"Mesa\"}]}",
+        desc->run_id != NULL ? desc->run_id : "",
+        desc->started != NULL ? desc->started : "2026-01-02T03:04:05Z",
+        desc->machine != NULL ? desc->machine : usual_machine);
     write_file(run->directory, "summary.csv", &summary);
     write_file(run->directory, "samples.csv", &samples);
     write_file(run->directory, "manifest.json", &manifest);

@@ -30,6 +30,7 @@ typedef struct kit_run_desc {
     const char *journal; /* lines after the first; NULL: there is no journal */
     const char *machine; /* "\"cpu\": \"x\", ..." */
     const char *started; /* "2026-01-02T..." */
+    const char *run_id;
 } kit_run_desc;
 
 /* rows and row_count of a desc, from an array. */
