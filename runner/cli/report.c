@@ -229,3 +229,8 @@ int cli_compare(const fm_cli *cli, int argc, char **argv)
 {
     return pass_on(cli, "compare", argc, argv);
 }
+
+int cli_history(const fm_cli *cli, int argc, char **argv)
+{
+    return pass_on(cli, "history", argc, argv);
+}
