@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/data.h"
+#include "baseline_command.h"
 #include "claims/verdicts.h"
 #include "compare_command.h"
 #include "error_command.h"
@@ -246,6 +247,7 @@ static const struct {
 } commands[] = {
     { "error", error_main },
     { "compare", compare_main },
+    { "baseline", baseline_main },
     { "history", history_main },
 };
 

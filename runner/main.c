@@ -31,6 +31,8 @@ static const struct {
     { "error", "fragmark error", cli_error, "how far two image files are apart" },
     { "compare", "fragmark compare", cli_compare,
       "two runs, case by case: ratios, and what changed" },
+    { "baseline", "fragmark baseline", cli_baseline,
+      "names a run, so that later ones are held against it" },
     { "history", "fragmark history", cli_history, "many nights: since when something is slower" },
     { "report", "fragmark report", cli_report, "charts and report.html again from the CSV" },
 };

@@ -1,11 +1,7 @@
 #include "record.h"
 
-#include <inttypes.h>
-#include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <xxhash.h>
 
 #include "compare/comparison.h"
 #include "compare/hardware.h"
@@ -188,16 +184,13 @@ static fm_status find_machine(sqlite3_int64 *machine, fm_history *history,
     return status;
 }
 
-/* Eight digits, of what it was like when it was seen first. */
+/* Its fingerprint is of what it was like when it was seen first. */
 static fm_status add_machine(sqlite3_int64 *machine, fm_history *history,
                              const fm_hardware *hardware, fm_error *err)
 {
-    char facts[1200], fingerprint[17];
+    char fingerprint[FM_FINGERPRINT_BYTES];
     sqlite3_stmt *statement = NULL;
-    const int length = snprintf(facts, sizeof facts, "%s|%s|%.0f", hardware->cpu, hardware->cores,
-                                hardware->memory_bytes);
-    snprintf(fingerprint, sizeof fingerprint, "%08" PRIx32,
-             (uint32_t)XXH3_64bits(facts, (size_t)length));
+    hardware_fingerprint(fingerprint, hardware);
     fm_status status = sql_prepare(&statement, history,
                                    "INSERT INTO machine(fingerprint, cpu, cores, memory_bytes)"
                                    " VALUES(:fingerprint, :cpu, :cores, :memory_bytes)",

@@ -47,7 +47,7 @@ typedef struct fm_cli {
 /* One subcommand; argv[0] is "fragmark NAME". Returns the exit code. */
 typedef int fm_command(const fm_cli *cli, int argc, char **argv);
 fm_command cli_list, cli_doctor, cli_plan, cli_run, cli_reproduce, cli_record, cli_report,
-    cli_bundle, cli_error, cli_compare, cli_history;
+    cli_bundle, cli_error, cli_compare, cli_history, cli_baseline;
 
 /* Says what went wrong before anything was run, and returns the exit code for it: CLI_USAGE where
  * the arguments, or files that they name, are to blame. */

@@ -234,3 +234,8 @@ int cli_history(const fm_cli *cli, int argc, char **argv)
 {
     return pass_on(cli, "history", argc, argv);
 }
+
+int cli_baseline(const fm_cli *cli, int argc, char **argv)
+{
+    return pass_on(cli, "baseline", argc, argv);
+}
