@@ -12,6 +12,7 @@
 #include "error_command.h"
 #include "history_command.h"
 #include "model/exit_code.h"
+#include "night_command.h"
 #include "page/report.h"
 #include "results_folder.h"
 
@@ -245,10 +246,8 @@ static const struct {
     const char *name;
     int (*run)(int argc, char **argv);
 } commands[] = {
-    { "error", error_main },
-    { "compare", compare_main },
-    { "baseline", baseline_main },
-    { "history", history_main },
+    { "error", error_main },     { "compare", compare_main }, { "baseline", baseline_main },
+    { "history", history_main }, { "night", night_main },
 };
 
 static int run_command(const char *name, int (*run)(int argc, char **argv), int argc, char **argv)
