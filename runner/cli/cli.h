@@ -161,6 +161,8 @@ bool report_find(char path[FM_PATH_MAX_BYTES]);
  * error      the metric that is held against time; NULL: the default */
 int report_execute(const char *program, const char *directory, const char *reference,
                    const char *error);
+/* Executes argv[0], which report_find has found, with arguments that end with NULL; the same. */
+int report_command(const char *const *argv);
 /* Before anything is measured: FM_INVALID or FM_IO if the reference that is asked for, or a figure
  * that the report is to draw, cannot be read. Says so if there is no fragmark-report. figures: ids,
  * ends with NULL. */
