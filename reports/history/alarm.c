@@ -134,6 +134,7 @@ fm_status alarm_judge(fm_alarm *alarm, const fm_night *nights, size_t count,
     if (alarm->recent > 0)
         return test_step(alarm, values + (taken - alarm->recent - alarm->before), &full, err);
     alarm->verdict = FM_ALARM_EARLY;
+    alarm->before = taken - 1;
     alarm->needed = count_needed(alarm->level);
     return FM_OK;
 }

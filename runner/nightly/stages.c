@@ -86,7 +86,8 @@ fm_status stage_measure(int *code, fm_tonight *tonight, fm_error *err)
     night->measured_s = night_measured_s(night);
     night->attempt_s = (int64_t)time(NULL);
     const double budget_s = 0.9 * 60.0 * tonight->policy->budget_minutes;
-    const double seconds = fmax(budget_s - night->measured_s, least_s);
+    const double left_s = budget_s - night->measured_s;
+    const double seconds = tonight->is_continued ? fmax(left_s, least_s) : left_s;
     fm_status status = path_join(run, night->folder, "run", err);
     if (status == FM_OK)
         status = list_arguments(&argv, tonight, run, err);

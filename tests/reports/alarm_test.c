@@ -59,6 +59,7 @@ static void a_young_series_says_how_many_nights_it_needs(void **state)
     const fm_alarm early = judge(slow, 3, 5, 1);
     assert_int_equal(early.verdict, FM_ALARM_EARLY);
     assert_int_equal(early.needed, 12);
+    assert_int_equal(early.before, 7);
     assert_int_equal(judge(slow, 5, 6, 1).verdict, FM_ALARM_EARLY);
     assert_int_equal(judge(slow, 5, 7, 1).verdict, FM_ALARM_STEP);
 }
