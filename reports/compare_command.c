@@ -4,7 +4,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/state.h"
 #include "base/text.h"
+#include "baseline/baseline.h"
 #include "compare/comparison.h"
 #include "model/exit_code.h"
 #include "page/comparison_page.h"
@@ -16,10 +18,14 @@ typedef struct compare_arguments {
     fm_quantity_desc quantity;
     double band;
     const char *csv, *html; /* NULL: not asked for */
+    const char *state;      /* NULL: the usual folder */
     bool wants_json;
+    char baseline[FM_PATH_MAX_BYTES]; /* where BASE is, if it is one */
 } compare_arguments;
 
-enum { KEY_CSV = 512, KEY_HTML, KEY_JSON };
+enum { KEY_CSV = 512, KEY_HTML, KEY_JSON, KEY_STATE };
+
+static const char baseline_prefix[] = "baseline:";
 
 /* "2" and "2%" are the same. */
 static void take_band(compare_arguments *given, const char *text, struct argp_state *state)
@@ -54,6 +60,9 @@ static error_t parse(int key, char *value, struct argp_state *state)
     case KEY_HTML:
         given->html = value;
         return 0;
+    case KEY_STATE:
+        given->state = value;
+        return 0;
     case KEY_JSON:
         given->wants_json = true;
         return 0;
@@ -86,6 +95,8 @@ static const struct argp_option options[] = {
     { "csv", KEY_CSV, "FILE", 0, "also write a row a case", 0 },
     { "html", KEY_HTML, "FILE", 0, "also write a page with a chart, one file that opens anywhere",
       0 },
+    { "state", KEY_STATE, "DIR", 0,
+      "where baselines are; without it $XDG_STATE_HOME/fragmark, or ~/.local/state/fragmark", 0 },
     { "json", KEY_JSON, NULL, 0, "print JSON instead of lines", 0 },
     { 0 },
 };
@@ -111,10 +122,13 @@ static const struct argp argp = {
            "Examples:\n"
            "  fragmark compare monday tuesday\n"
            "  fragmark compare main mine --csv mine.csv --html mine.html\n"
-           "  fragmark compare here there --reference ab-ll\n\n"
-           "Exit codes: 0 compared, whatever was found; 2 wrong use, or a folder that holds no "
-           "results; 5 something cannot be written; 7 not comparable: milliseconds of two "
-           "machines, or no case in both; 8 damaged or foreign results.",
+           "  fragmark compare here there --reference ab-ll\n"
+           "  fragmark compare baseline:release-1 mine     (`fragmark baseline --help`)\n\n"
+           "Exit codes: 0 compared, whatever was found; 2 wrong use, a folder that holds no "
+           "results, or no such baseline of this machine; 5 something cannot be written; 7 not "
+           "comparable: milliseconds of two "
+           "machines, or no case in both; 8 damaged or foreign results, or a baseline that was "
+           "changed.",
 };
 
 static int code_of(fm_status status)
@@ -136,17 +150,53 @@ static void tell_missing(const fm_result_files *results)
                 results->missing.items[i]);
 }
 
-static int read_runs(fm_result_files *runs[2], const compare_arguments *given, fm_error *err)
+static int read_run(fm_result_files **run, const char *directory, fm_error *err)
 {
-    for (int i = 0; i < 2; i++)
-        if (results_folder_check(given->directories[i], err) != FM_OK)
-            return FM_EXIT_USAGE;
-    for (int i = 0; i < 2; i++) {
-        if (result_files_read(&runs[i], given->directories[i], err) != FM_OK)
-            return err->status == FM_NO_MEMORY ? FM_EXIT_INCOMPLETE : FM_EXIT_DAMAGED;
-        tell_missing(runs[i]);
-    }
+    if (results_folder_check(directory, err) != FM_OK)
+        return FM_EXIT_USAGE;
+    if (result_files_read(run, directory, err) != FM_OK)
+        return err->status == FM_NO_MEMORY ? FM_EXIT_INCOMPLETE : FM_EXIT_DAMAGED;
+    tell_missing(*run);
     return FM_EXIT_DONE;
+}
+
+/* baseline:NAME becomes the folder of that baseline, of NEW's machine. */
+static int find_baseline(compare_arguments *given, const fm_result_files *now, fm_error *err)
+{
+    char store[FM_PATH_MAX_BYTES];
+    const size_t length = strlen(baseline_prefix);
+    if (strncmp(given->directories[0], baseline_prefix, length) != 0)
+        return FM_EXIT_DONE;
+    if (state_path(store, given->state, "baselines", false, err) != FM_OK)
+        return FM_EXIT_USAGE;
+    const fm_status status =
+        baseline_find(given->baseline, store, given->directories[0] + length, now->manifest, err);
+    given->directories[0] = given->baseline;
+    switch (status) {
+    case FM_OK:
+        return FM_EXIT_DONE;
+    case FM_UNSUPPORTED:
+        return FM_EXIT_USAGE;
+    case FM_INVALID:
+        return FM_EXIT_DAMAGED;
+    default:
+        return FM_EXIT_INCOMPLETE;
+    }
+}
+
+/* A folder that is not there is told before one is read. */
+static int read_runs(fm_result_files *runs[2], compare_arguments *given, fm_error *err)
+{
+    int code = FM_EXIT_DONE;
+    for (int i = 0; i < 2 && code == FM_EXIT_DONE; i++)
+        if (strncmp(given->directories[i], baseline_prefix, strlen(baseline_prefix)) != 0 &&
+            results_folder_check(given->directories[i], err) != FM_OK)
+            code = FM_EXIT_USAGE;
+    if (code == FM_EXIT_DONE)
+        code = read_run(&runs[1], given->directories[1], err);
+    if (code == FM_EXIT_DONE)
+        code = find_baseline(given, runs[1], err);
+    return code == FM_EXIT_DONE ? read_run(&runs[0], given->directories[0], err) : code;
 }
 
 static fm_status write_csv(const char *path, const fm_comparison *comparison, fm_error *err)

@@ -6,10 +6,13 @@
 #include <string.h>
 
 #include "base/data.h"
+#include "baseline_command.h"
 #include "claims/verdicts.h"
 #include "compare_command.h"
 #include "error_command.h"
+#include "history_command.h"
 #include "model/exit_code.h"
+#include "night_command.h"
 #include "page/report.h"
 #include "results_folder.h"
 
@@ -238,6 +241,23 @@ static int check(const arguments *given, fm_error *err)
     return is_right ? FM_EXIT_DONE : FM_EXIT_USAGE;
 }
 
+/* Commands that `fragmark` hands on, with options of their own. */
+static const struct {
+    const char *name;
+    int (*run)(int argc, char **argv);
+} commands[] = {
+    { "error", error_main },     { "compare", compare_main }, { "baseline", baseline_main },
+    { "history", history_main }, { "night", night_main },
+};
+
+static int run_command(const char *name, int (*run)(int argc, char **argv), int argc, char **argv)
+{
+    char title[64]; /* what argp calls the command */
+    snprintf(title, sizeof title, "fragmark %s", name);
+    argv[1] = title;
+    return run(argc - 1, argv + 1);
+}
+
 int main(int argc, char **argv)
 {
     static const struct argp_option options[] = {
@@ -273,7 +293,8 @@ int main(int argc, char **argv)
                "  fragmark-report out/mine --figure kplus-05\n"
                "  fragmark-report out/mine --figure my-figure.yml\n"
                "  fragmark-report error IMAGE REFERENCE   (its own --help tells more)\n"
-               "  fragmark-report compare BASE NEW        (the same)\n\n"
+               "  fragmark-report compare BASE NEW        (the same)\n"
+               "  fragmark-report history add DIR         (the same)\n\n"
                "Exit status: 0 done, 1 a claim that its figure declares required fails, 2 wrong "
                "use: a figure or reference that is named and not there, or a bad figure file, "
                "5 the report cannot be written, or was drawn of results that lack something, which "
@@ -283,15 +304,9 @@ int main(int argc, char **argv)
     };
     arguments given = { .error = error_kind_find(NULL, NULL) };
     fm_error err = { 0 };
-    char error_title[] = "fragmark error", compare_title[] = "fragmark compare";
-    if (argc > 1 && strcmp(argv[1], "error") == 0) {
-        argv[1] = error_title;
-        return error_main(argc - 1, argv + 1);
-    }
-    if (argc > 1 && strcmp(argv[1], "compare") == 0) {
-        argv[1] = compare_title;
-        return compare_main(argc - 1, argv + 1);
-    }
+    for (size_t i = 0; i < sizeof commands / sizeof commands[0] && argc > 1; i++)
+        if (strcmp(argv[1], commands[i].name) == 0)
+            return run_command(commands[i].name, commands[i].run, argc, argv);
     argp_err_exit_status = FM_EXIT_USAGE;
     argp_parse(&argp, argc, argv, 0, NULL, &given);
     const int code = given.only_checks ? check(&given, &err) : make_report(&given, &err);

@@ -8,6 +8,7 @@
 #include "describe/describe.h"
 #include "devices.h"
 #include "inspect/dump.h"
+#include "nightly/nightly.h"
 #include "share/share.h"
 #include "worker/worker.h"
 
@@ -38,6 +39,11 @@ static const struct {
     { "error", "fragmark error", cli_error, "how far two image files are apart" },
     { "compare", "fragmark compare", cli_compare,
       "two runs, case by case: ratios, and what changed" },
+    { "nightly", "fragmark nightly", nightly_command,
+      "what fits the time, measured, recorded, and held against the nights before" },
+    { "baseline", "fragmark baseline", cli_baseline,
+      "names a run, so that later ones are held against it" },
+    { "history", "fragmark history", cli_history, "many nights: since when something is slower" },
     { "report", "fragmark report", cli_report, "charts and report.html again from the CSV" },
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };

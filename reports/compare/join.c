@@ -16,8 +16,7 @@ typedef struct joiner {
     fm_text_index names; /* the last case of each name */
 } joiner;
 
-/* What names a case, but for n. */
-static void add_name(fm_text *name, const fm_case_row *row)
+void join_add_name(fm_text *name, const fm_case_row *row)
 {
     char workload[WORKLOAD_KEY_BYTES], kept[FM_OPTIONS_TEXT_BYTES];
     const char *options = row->options;
@@ -41,7 +40,7 @@ static fm_status index_names(joiner *to, fm_error *err)
         to->next_alike[i] = SIZE_MAX;
         if (to->is_taken[i])
             continue;
-        add_name(&name, &to->now->cases[i]);
+        join_add_name(&name, &to->now->cases[i]);
         const size_t first =
             name.failed ? FM_TEXT_INDEX_NONE : text_index_add(&to->names, name.bytes, i);
         text_free(&name);
@@ -78,7 +77,7 @@ static fm_status take_by_name(fm_pairs *pairs, joiner *from, fm_error *err)
         fm_pair *pair = &pairs->items[i];
         if (pair->now != NULL)
             continue;
-        add_name(&name, pair->base);
+        join_add_name(&name, pair->base);
         if (name.failed) {
             text_free(&name);
             return fm_fail(err, FM_NO_MEMORY, "no memory for %zu cases", pairs->count);

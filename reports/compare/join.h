@@ -24,4 +24,8 @@ fm_status join_cases(fm_pairs *pairs, const fm_result_files *base, const fm_resu
                      fm_error *err);
 void join_free(fm_pairs *pairs);
 
+/* Adds what names a case, but for n: of two cases of one name and, where both tell it, one n, the
+ * same was asked. */
+void join_add_name(fm_text *name, const fm_case_row *row);
+
 #endif

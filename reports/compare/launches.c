@@ -52,36 +52,54 @@ static double take_median(size_t *at, const launch_values *from, uint32_t launch
     return stats_median(room, count);
 }
 
-/* At most one a sample, so that ratios fit where samples do. */
-static size_t fill_ratios(double *ratios, const launch_values *metric, const launch_values *over,
-                          double *room)
+fm_status launches_numbers(fm_launch_numbers **numbers, size_t *count,
+                           const fm_result_files *results, const fm_case_row *row,
+                           const char *metric, const char *over, fm_error *err)
 {
-    size_t count = 0, at = 0, over_at = 0;
-    while (at < metric->count) {
-        const uint32_t launch = metric->items[at].launch;
-        const double ratio =
-            take_median(&at, metric, launch, room) / take_median(&over_at, over, launch, room);
-        if (isfinite(ratio))
-            ratios[count++] = ratio;
+    const fm_sample_rows *samples = &results->samples;
+    const size_t index = (size_t)(row - results->cases);
+    launch_values of, floor;
+    const bool has_of = open_values(&of, samples, index, metric);
+    const bool has_floor = open_values(&floor, samples, index, over);
+    double *room = calloc(of.count + floor.count + 1, sizeof *room);
+    fm_launch_numbers *made = calloc(of.count + 1, sizeof *made);
+    const bool has_memory = has_of && has_floor && room != NULL && made != NULL;
+    size_t at = 0, over_at = 0;
+    *count = 0;
+    while (has_memory && at < of.count) {
+        const uint32_t launch = of.items[at].launch;
+        fm_launch_numbers *one = &made[(*count)++];
+        one->launch = launch;
+        one->value = take_median(&at, &of, launch, room);
+        one->over = take_median(&over_at, &floor, launch, room);
     }
-    return count;
+    free(room);
+    free(floor.items);
+    free(of.items);
+    *numbers = has_memory ? made : NULL;
+    if (!has_memory)
+        free(made);
+    return has_memory ? FM_OK
+                      : fm_fail(err, FM_NO_MEMORY, "no memory for the launches of %.64s", row->id);
 }
 
 fm_interval launches_ratio(const fm_result_files *results, const fm_case_row *row,
                            const char *metric, const char *over)
 {
-    const fm_sample_rows *samples = &results->samples;
-    const size_t index = (size_t)(row - results->cases);
     fm_interval interval = { NAN, NAN, NAN };
-    launch_values of, floor;
-    const bool has_of = open_values(&of, samples, index, metric);
-    const bool has_floor = open_values(&floor, samples, index, over);
-    const size_t most = of.count + floor.count + 1;
-    double *ratios = calloc(2 * most, sizeof *ratios);
-    if (ratios != NULL && has_of && has_floor)
-        interval = stats_interval(ratios, fill_ratios(ratios, &of, &floor, ratios + most));
+    fm_launch_numbers *numbers;
+    size_t count, kept = 0;
+    if (launches_numbers(&numbers, &count, results, row, metric, over, NULL) != FM_OK)
+        return interval;
+    double *ratios = calloc(count + 1, sizeof *ratios);
+    for (size_t i = 0; i < count && ratios != NULL; i++) {
+        const double ratio = numbers[i].value / numbers[i].over;
+        if (isfinite(ratio))
+            ratios[kept++] = ratio;
+    }
+    if (ratios != NULL)
+        interval = stats_interval(ratios, kept);
     free(ratios);
-    free(floor.items);
-    free(of.items);
+    free(numbers);
     return interval;
 }

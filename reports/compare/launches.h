@@ -11,4 +11,16 @@
 fm_interval launches_ratio(const fm_result_files *results, const fm_case_row *row,
                            const char *metric, const char *over);
 
+/* One launch of a case. */
+typedef struct fm_launch_numbers {
+    uint32_t launch;
+    double value, over; /* medians of its frames; NAN: it has none */
+} fm_launch_numbers;
+
+/* Of all launches that have the metric, in the order of samples.csv. *numbers is the caller's to
+ * free, and NULL on failure. FM_NO_MEMORY. */
+fm_status launches_numbers(fm_launch_numbers **numbers, size_t *count,
+                           const fm_result_files *results, const fm_case_row *row,
+                           const char *metric, const char *over, fm_error *err);
+
 #endif

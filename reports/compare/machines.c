@@ -1,37 +1,10 @@
 #include "machines.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/text.h"
-
-static const double memory_slack = 0.02;
-
-/* "": it does not tell. */
-static const char *machine_fact(const fm_provenance *manifest, const char *name)
-{
-    for (size_t i = 0; i < manifest->machine_count; i++)
-        if (strcmp(manifest->machine[i].name, name) == 0)
-            return manifest->machine[i].value;
-    return "";
-}
-
-static bool is_same_size(const char *base, const char *now)
-{
-    double a, b;
-    return text_to_double(&a, base) && text_to_double(&b, now) &&
-           fabs(a - b) <= memory_slack * fmax(a, b);
-}
-
-/* Known, and the same. */
-static bool is_same_hardware(const char *name, const char *base, const char *now)
-{
-    if (base[0] == '\0' || now[0] == '\0')
-        return false;
-    return strcmp(base, now) == 0 || (strcmp(name, "memory_bytes") == 0 && is_same_size(base, now));
-}
+#include "hardware.h"
 
 static void add(fm_machines *machines, const char *prefix, const char *name, const char *base,
                 const char *now)
@@ -49,9 +22,9 @@ static void add_machine(fm_machines *machines, const fm_provenance *base, const 
 {
     for (size_t i = 0; i < base->machine_count; i++)
         add(machines, "", base->machine[i].name, base->machine[i].value,
-            machine_fact(now, base->machine[i].name));
+            hardware_fact(now, base->machine[i].name));
     for (size_t i = 0; i < now->machine_count; i++)
-        if (machine_fact(base, now->machine[i].name)[0] == '\0')
+        if (hardware_fact(base, now->machine[i].name)[0] == '\0')
             add(machines, "", now->machine[i].name, "", now->machine[i].value);
 }
 
@@ -126,22 +99,16 @@ static bool is_same_day(const char *base, const char *now)
 fm_status machines_compare(fm_machines *machines, const fm_machines_desc *desc, fm_error *err)
 {
     const fm_provenance *base = desc->base->manifest, *now = desc->now->manifest;
-    static const char *const hardware[] = { "cpu", "cores", "memory_bytes" };
     static const char *const facts[] = { "fragmark", "git_commit", "launches", "frames",
                                          "warmup",   "validation", "no_timers" };
-    enum {
-        HARDWARE = sizeof hardware / sizeof hardware[0],
-        FACTS = sizeof facts / sizeof facts[0]
-    };
+    enum { FACTS = sizeof facts / sizeof facts[0] };
+    const fm_hardware here = hardware_of(base), there = hardware_of(now);
     const size_t most = base->machine_count + now->machine_count + 3 * base->device_count +
                         desc->pairs->count + FACTS;
-    *machines = (fm_machines){ .is_same_machine = true };
+    *machines = (fm_machines){ .is_same_machine = hardware_is_same(&here, &there) };
     machines->differing = calloc(most, sizeof *machines->differing);
     if (machines->differing == NULL)
         return fm_fail(err, FM_NO_MEMORY, "no memory for %zu facts", most);
-    for (size_t i = 0; i < HARDWARE; i++)
-        machines->is_same_machine &= is_same_hardware(hardware[i], machine_fact(base, hardware[i]),
-                                                      machine_fact(now, hardware[i]));
     add_machine(machines, base, now);
     add_listed_devices(machines, base, now);
     add_devices_of_cases(machines, desc);

@@ -38,12 +38,12 @@ static fm_status refuse_metric(const char *name, fm_error *err)
                    name, nearest != NULL ? nearest : name_of(FM_METRIC_FRAME_MS));
 }
 
-static bool has_defaults(const fm_case_row *row)
+bool quantity_is_reference(const fm_case_row *row)
 {
     char own[FM_OPTIONS_TEXT_BYTES], kept[FM_OPTIONS_TEXT_BYTES];
     options_select(own, row->options, FM_OPTIONS_OWN, NULL);
     options_drop(kept, own, row->look.defaults);
-    return kept[0] == '\0';
+    return row->is_measured && kept[0] == '\0';
 }
 
 static fm_status refuse_method(const char *method, const fm_result_files *run, fm_error *err)
@@ -73,7 +73,7 @@ static fm_status find_references(fm_references *references, const fm_result_file
         if (strcmp(row->method, method) != 0)
             continue;
         is_there = true;
-        if (row->is_measured && has_defaults(row))
+        if (quantity_is_reference(row))
             references->cases[references->count++] = i;
     }
     return is_there ? FM_OK : refuse_method(method, run, err);

@@ -43,6 +43,10 @@ fm_status quantity_choose(fm_quantity *quantity, const fm_quantity_desc *desc,
 
 void quantity_free(fm_quantity *quantity);
 
+/* Whether others may be taken over this case: it was measured, with all options at their defaults.
+ */
+bool quantity_is_reference(const fm_case_row *row);
+
 /* "frame_ms", "frame_ms / floor", "frame_ms / ab-ll" */
 void quantity_title(char title[128], const fm_quantity *quantity);
 

@@ -47,7 +47,7 @@ typedef struct fm_cli {
 /* One subcommand; argv[0] is "fragmark NAME". Returns the exit code. */
 typedef int fm_command(const fm_cli *cli, int argc, char **argv);
 fm_command cli_list, cli_doctor, cli_plan, cli_run, cli_reproduce, cli_record, cli_report,
-    cli_bundle, cli_error, cli_compare;
+    cli_bundle, cli_error, cli_compare, cli_history, cli_baseline;
 
 /* Says what went wrong before anything was run, and returns the exit code for it: CLI_USAGE where
  * the arguments, or files that they name, are to blame. */
@@ -173,6 +173,8 @@ int report_execute(const char *program, const char *directory, const char *refer
  * are there, and the report is not, or it was drawn and lacks something, which the program has
  * told. reference: as above. */
 int cli_draw_report(const fm_cli *cli, const char *directory, const char *reference);
+/* Executes argv[0], which report_find has found, with arguments that end with NULL; the same. */
+int report_command(const char *const *argv);
 /* Before anything is measured: FM_INVALID or FM_IO if the reference that is asked for, or a figure
  * that the report is to draw, cannot be read. Says so if there is no fragmark-report. figures: ids,
  * ends with NULL. */

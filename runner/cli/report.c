@@ -35,8 +35,7 @@ bool report_find(char path[FM_PATH_MAX_BYTES])
     return false;
 }
 
-/* Executes argv[0]; its exit status, or -1 when it could not be executed. */
-static int execute(const char *const *argv)
+int report_command(const char *const *argv)
 {
     pid_t pid;
     int status = 0;
@@ -61,7 +60,7 @@ int report_execute(const char *program, const char *directory, const char *refer
         argv[count++] = "--error";
         argv[count++] = error;
     }
-    return execute(argv);
+    return report_command(argv);
 }
 
 int cli_draw_report(const fm_cli *cli, const char *directory, const char *reference)
@@ -100,7 +99,7 @@ static fm_status check_inputs(const char *program, const char *reference,
         argv[used++] = "--reference";
         argv[used++] = reference;
     }
-    const int code = execute(argv);
+    const int code = report_command(argv);
     free(argv);
     return code == CLI_DONE ? FM_OK
                             : fm_fail(err, FM_INVALID,
@@ -229,7 +228,7 @@ static int pass_on(const fm_cli *cli, const char *command, int argc, char **argv
     passed[1] = command;
     for (int i = 1; i < argc; i++)
         passed[i + 1] = argv[i];
-    const int code = execute(passed);
+    const int code = report_command(passed);
     free(passed);
     if (code < 0)
         fprintf(cli->talk, "fragmark: %s cannot be executed\n", program);
@@ -244,4 +243,14 @@ int cli_error(const fm_cli *cli, int argc, char **argv)
 int cli_compare(const fm_cli *cli, int argc, char **argv)
 {
     return pass_on(cli, "compare", argc, argv);
+}
+
+int cli_history(const fm_cli *cli, int argc, char **argv)
+{
+    return pass_on(cli, "history", argc, argv);
+}
+
+int cli_baseline(const fm_cli *cli, int argc, char **argv)
+{
+    return pass_on(cli, "baseline", argc, argv);
 }

@@ -80,9 +80,10 @@ void kit_open(kit_run *run, const kit_run_desc *desc)
         add_row(&summary, desc->rows[i], i);
     add_samples(&samples, desc->samples);
     text_add(&manifest,
-             "{\"schema\": 1, \"started\": \"%s\", \"machine\": {%s}, \"methods\": {"
-             "\"a\": {\"defaults\": \"x=1 y=2\"}, \"racy\": {\"traits\": [\"racy\"]}}, "
-             "\"devices\": [%s]}",
+             "{\"schema\": 1, \"run_id\": \"%s\", \"started\": \"%s\", \"machine\": {%s}, "
+             "\"methods\": {\"a\": {\"defaults\": \"x=1 y=2\"}, "
+             "\"racy\": {\"traits\": [\"racy\"]}}, \"devices\": [%s]}",
+             desc->run_id != NULL ? desc->run_id : "",
              desc->started != NULL ? desc->started : "2026-01-02T03:04:05Z",
              desc->machine != NULL ? desc->machine : usual_machine,
              desc->devices != NULL ? desc->devices : usual_devices);

@@ -31,6 +31,7 @@ typedef struct kit_run_desc {
     const char *machine; /* "\"cpu\": \"x\", ..." */
     const char *started; /* "2026-01-02T..." */
     const char *devices; /* of the manifest: "{...}, {...}"; "": none, as of an interrupted run */
+    const char *run_id;
 } kit_run_desc;
 
 /* rows and row_count of a desc, from an array. */
