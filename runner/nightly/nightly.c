@@ -11,6 +11,7 @@
 #include "base/clock.h"
 #include "base/state.h"
 #include "choose.h"
+#include "plan/cost.h"
 #include "stages.h"
 
 enum {
