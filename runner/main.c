@@ -8,6 +8,7 @@
 #include "describe/describe.h"
 #include "devices.h"
 #include "inspect/dump.h"
+#include "regress/commands.h"
 #include "worker/worker.h"
 
 static const struct {
@@ -31,6 +32,8 @@ static const struct {
     { "error", "fragmark error", cli_error, "how far two image files are apart" },
     { "compare", "fragmark compare", cli_compare,
       "two runs, case by case: ratios, and what changed" },
+    { "ab", "fragmark ab", regress_ab,
+      "a method of two builds, by pairs of launches: is it slower?" },
     { "report", "fragmark report", cli_report, "charts and report.html again from the CSV" },
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
