@@ -9,6 +9,7 @@
 #include "claims/verdicts.h"
 #include "compare_command.h"
 #include "error_command.h"
+#include "gate_command.h"
 #include "model/exit_code.h"
 #include "page/report.h"
 #include "results_folder.h"
@@ -283,7 +284,8 @@ int main(int argc, char **argv)
     };
     arguments given = { .error = error_kind_find(NULL, NULL) };
     fm_error err = { 0 };
-    char error_title[] = "fragmark error", compare_title[] = "fragmark compare";
+    char error_title[] = "fragmark error", compare_title[] = "fragmark compare",
+         gate_title[] = "fragmark gate";
     if (argc > 1 && strcmp(argv[1], "error") == 0) {
         argv[1] = error_title;
         return error_main(argc - 1, argv + 1);
@@ -291,6 +293,10 @@ int main(int argc, char **argv)
     if (argc > 1 && strcmp(argv[1], "compare") == 0) {
         argv[1] = compare_title;
         return compare_main(argc - 1, argv + 1);
+    }
+    if (argc > 1 && strcmp(argv[1], "gate") == 0) {
+        argv[1] = gate_title;
+        return gate_main(argc - 1, argv + 1);
     }
     argp_err_exit_status = FM_EXIT_USAGE;
     argp_parse(&argp, argc, argv, 0, NULL, &given);

@@ -34,6 +34,10 @@ static const struct {
       "two runs, case by case: ratios, and what changed" },
     { "ab", "fragmark ab", regress_ab,
       "a method of two builds, by pairs of launches: is it slower?" },
+    { "gate", "fragmark gate", regress_gate,
+      "two builds, or two folders of results: exit code 1 if a case is worse" },
+    { "calibrate", "fragmark calibrate", regress_calibrate,
+      "how small a change this machine can see" },
     { "report", "fragmark report", cli_report, "charts and report.html again from the CSV" },
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };

@@ -222,7 +222,7 @@ static fm_status measure(ab_session *session, fm_error *err)
                           session->result->stop_signal == 0;
          look++)
         status = measure_look(session, look, err);
-    if (status == FM_OK && session->result->stop_signal == 0)
+    if (status == FM_OK && session->result->stop_signal == 0 && !session->desc->policy->only_looks)
         status = measure_confirmation(session, err);
     session->result->is_finished = status == FM_OK && session->result->stop_signal == 0;
     progress_close(&session->progress);

@@ -62,6 +62,8 @@ static void add_summary(fm_text *text, const ab_result *result)
     text_add(text, "; %u pairs of launches", result->measured_pairs);
     if (result->pairs.unpaired > 0)
         text_add(text, "; %zu cases in one side alone", result->pairs.unpaired);
+    if (result->pairs.refused > 0)
+        text_add(text, "; %zu that neither side can run", result->pairs.refused);
     text_add(text, "\n");
 }
 

@@ -44,6 +44,7 @@ typedef struct ab_policy {
     double confirm_level;    /* of the confirmation, one-sided */
     double band;             /* the least share of a time that counts */
     bool stops_at_outputs;   /* a case with worse outputs is not timed any further */
+    bool only_looks;         /* nothing is confirmed: both sides are the same build */
 } ab_policy;
 
 /* Looks at 20 and 40 pairs, level 5 %, band 2 %, and levels of the looks; with `looks` (ends with

@@ -155,6 +155,10 @@ static fm_status join_each(ab_pairs *pairs, bool *is_joined, fm_plan *base, fm_p
             continue;
         }
         is_joined[at] = true;
+        if (base->cases[i].skip != NULL && now->cases[at].skip != NULL) {
+            pairs->refused++;
+            continue;
+        }
         pairs->items[pairs->count++] = (ab_pair){ { i, at } };
         status = skip_alike(&base->cases[i], &now->cases[at], err);
     }
@@ -176,7 +180,9 @@ fm_status sides_join(ab_pairs *pairs, fm_plan *base, fm_plan *now, fm_error *err
         }
     free(is_joined);
     if (status == FM_OK && pairs->count == 0)
-        status = fm_fail(err, FM_INVALID, "BASE and NEW have no case in common");
+        status = fm_fail(
+            err, FM_INVALID,
+            "BASE and NEW have no case in common that can be run; `fragmark plan` says why");
     if (status != FM_OK)
         sides_free(pairs);
     return status;

@@ -31,13 +31,14 @@ typedef struct ab_pairs {
     ab_pair *items; /* [count], in the order of BASE's plan; owned */
     size_t count;
     size_t unpaired; /* cases of one side alone, which are not launched */
+    size_t refused;  /* cases that neither side can run: they are no pairs */
 } ab_pairs;
 
 /* Joins cases by what they were asked for: method, scene, device, feed, keys and options. Their
  * versions, and so their ids, may differ. Where each plan has one method, the two may be different
  * ones. Cases without a partner, and those whose partner is not launched, get a reason to be
  * skipped, so that nothing measures them in vain; a pair that only one side refuses stays a pair.
- * FM_INVALID: no case in both; FM_NO_MEMORY. The caller frees. */
+ * FM_INVALID: no case that either can run; FM_NO_MEMORY. The caller frees. */
 fm_status sides_join(ab_pairs *pairs, fm_plan *base, fm_plan *now, fm_error *err);
 void sides_free(ab_pairs *pairs);
 

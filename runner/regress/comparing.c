@@ -256,7 +256,7 @@ static int code_of(const ab_result *result)
 {
     size_t failed = 0;
     if (ab_count(result, AB_WORSE) > 0)
-        return CLI_CLAIM_FAILS;
+        return CLI_WORSE;
     for (size_t i = 0; i < result->count; i++)
         failed += has_failed(&result->cases[i]);
     if (failed > 0)
