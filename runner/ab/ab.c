@@ -124,8 +124,8 @@ static void choose_statistics(ab_session *session, size_t index)
     of->tested.differences[AB_CPU] =
         base->is_software && now->is_software ? of->differences[AB_CPU] : NULL;
     for (int s = 0; s < AB_STATISTIC_COUNT && session->desc->noise != NULL; s++)
-        of->tested.noise[s] =
-            noise_find(session->desc->noise, of->device_name, (ab_statistic)s, policy->looks[0]);
+        of->tested.least[s] =
+            noise_least(session->desc->noise, of->device_name, (ab_statistic)s, policy);
 }
 
 static ab_verdict verdict_of(const ab_case *of)

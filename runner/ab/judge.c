@@ -8,8 +8,6 @@
 
 const char *const ab_statistic_names[AB_STATISTIC_COUNT] = { "time", "cpu" };
 
-static const double standard_errors_that_count = 3.0;
-
 const char *ab_verdict_name(ab_verdict verdict)
 {
     static const char *const names[] = {
@@ -47,7 +45,7 @@ static fm_status check_looks(const ab_policy *policy, fm_error *err)
 fm_status ab_policy_make(ab_policy *policy, const uint32_t *looks, fm_error *err)
 {
     static const uint32_t usual[] = { 20, 40, 0 };
-    *policy = (ab_policy){ .level = 0.05, .confirm_level = 0.05, .band = 0.02 };
+    *policy = (ab_policy){ .level = 0.05, .confirm_level = 0.1, .band = 0.02 };
     looks = looks != NULL ? looks : usual;
     for (; looks[policy->look_count] != 0; policy->look_count++) {
         if (policy->look_count == AB_LOOKS)
@@ -88,8 +86,30 @@ static fm_status judge_known(ab_judged *judged, const double *values, double cov
     return FM_OK;
 }
 
+/* Half of a 95 % interval is 1.96 standard errors of what is normal, as estimates of many pairs
+ * are. */
+static fm_status shift_error(double *error, const double *values, size_t count, fm_error *err)
+{
+    fm_shift shift;
+    const fm_status status = walsh_shift(&shift, values, count, 0.95, err);
+    *error = status == FM_OK && interval_is_known(&shift.interval)
+                 ? (shift.interval.high - shift.interval.low) / (2.0 * 1.96)
+                 : 0.0;
+    return status;
+}
+
+static fm_status guess_least(double *least, const ab_judged *judged, const double *values,
+                             uint32_t planned, fm_error *err)
+{
+    double error;
+    const fm_status status = shift_error(&error, values, judged->pairs, err);
+    *least = AB_ERRORS_THAT_COUNT * fmax(error, judged->median.standard_error) *
+             sqrt((double)judged->pairs / (double)planned);
+    return status;
+}
+
 fm_status judge_pairs(ab_judged *judged, const double *differences, size_t count,
-                      const ab_policy *policy, double coverage, double noise, fm_error *err)
+                      const ab_policy *policy, double coverage, double least, fm_error *err)
 {
     static const fm_interval none = { NAN, NAN, NAN };
     *judged = (ab_judged){ .median.interval = none,
@@ -102,12 +122,11 @@ fm_status judge_pairs(ab_judged *judged, const double *differences, size_t count
     double *values = known_of(&judged->pairs, differences, count);
     if (values == NULL)
         return fm_fail(err, FM_NO_MEMORY, "no memory for %zu pairs", count);
-    fm_status status = FM_OK;
-    if (judged->pairs >= AB_PAIRS_LEAST)
-        status = judge_known(judged, values, coverage, err);
-    if (noise == 0.0)
-        noise = judged->median.standard_error * sqrt((double)judged->pairs / policy->looks[0]);
-    judged->band = fmax(judged->band, standard_errors_that_count * noise);
+    const bool is_judged = judged->pairs >= AB_PAIRS_LEAST;
+    fm_status status = is_judged ? judge_known(judged, values, coverage, err) : FM_OK;
+    if (status == FM_OK && is_judged && least == 0.0)
+        status = guess_least(&least, judged, values, policy->looks[0], err);
+    judged->band = fmax(judged->band, least);
     free(values);
     return status;
 }

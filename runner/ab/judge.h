@@ -16,7 +16,8 @@
 /* What is compared of each pair of launches. */
 typedef enum ab_statistic {
     AB_TIME, /* median of frame_ms of a launch */
-    AB_CPU,  /* median of frame_cpu_ms; of software devices alone, since it is their work */
+    AB_CPU,  /* least frame_cpu_ms of a launch: other programs only add to it, by what they do to
+                caches and shared cores; of software devices alone, since it is their work */
     AB_STATISTIC_COUNT
 } ab_statistic;
 extern const char *const ab_statistic_names[AB_STATISTIC_COUNT]; /* "time", "cpu" */
@@ -31,6 +32,9 @@ typedef enum ab_verdict {
     AB_VERDICT_COUNT
 } ab_verdict;
 const char *ab_verdict_name(ab_verdict verdict); /* "worse" */
+
+/* A change of fewer standard errors of a first look does not count. */
+#define AB_ERRORS_THAT_COUNT 3.0
 
 enum { AB_LOOKS = 8, AB_PAIRS_LEAST = 6 /* fewer have no interval of 95 % */ };
 
@@ -71,12 +75,13 @@ typedef struct ab_judged {
 /* Everything but `adjusted` and `verdict`, which hang on the other cases.
  * differences  [count]; NAN: the pair has none, and is left out
  * coverage     of both intervals
- * noise        standard error of the median of policy->looks[0] pairs, as calibrated; 0: not known,
- *              and taken from the differences themselves
- * The band is the larger of policy->band and three such standard errors: what the first look, and
- * each confirmation, can detect. FM_INVALID: an infinite difference; FM_NO_MEMORY. */
+ * least        logarithm of the smallest effect that counts on this machine, as calibrated
+ * (noise.h): three standard errors of policy->looks[0] pairs, of the median or of Hodges and
+ *              Lehmann's estimate, whichever is larger; 0: not known, and taken from the
+ * differences themselves The band is the larger of policy->band and that. FM_INVALID: an infinite
+ * difference; FM_NO_MEMORY. */
 fm_status judge_pairs(ab_judged *judged, const double *differences, size_t count,
-                      const ab_policy *policy, double coverage, double noise, fm_error *err);
+                      const ab_policy *policy, double coverage, double least, fm_error *err);
 
 /* AB_SAME, AB_WORSE, AB_BETTER or AB_UNCLEAR, by the interval, the band and `adjusted`; level: of
  * the look. Sets pairs_wanted. */

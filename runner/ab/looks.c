@@ -42,7 +42,7 @@ static fm_status judge_open(ab_tested *tested, const ab_policy *policy, size_t l
     for (int s = 0; s < AB_STATISTIC_COUNT && status == FM_OK; s++)
         if (tested->differences[s] != NULL)
             status = judge_pairs(&tested->judged[s], tested->differences[s], policy->looks[look],
-                                 policy, 1.0 - policy->levels[look], tested->noise[s], err);
+                                 policy, 1.0 - policy->levels[look], tested->least[s], err);
     tested->looks_seen = (uint32_t)look + 1;
     return status;
 }
@@ -123,7 +123,7 @@ static fm_status judge_again(ab_tested *tested, const ab_policy *policy, fm_erro
         if (tested->differences[s] != NULL && tested->judged[s].verdict == AB_WORSE)
             status =
                 judge_pairs(&tested->confirmed[s], tested->differences[s] + first, policy->looks[0],
-                            policy, 1.0 - policy->confirm_level, tested->noise[s], err);
+                            policy, 1.0 - policy->confirm_level, tested->least[s], err);
     return status;
 }
 
@@ -143,13 +143,18 @@ static fm_status adjust_suspects(ab_tested *cases, size_t count, fm_error *err)
     return status;
 }
 
+/* Whether it counts was judged before, mostly by more pairs: here it is only to be there again.
+ * Where the machine is as noisy as the band says, half of it is what the level asks for, too. */
 static void confirm(ab_tested *tested, const ab_policy *policy)
 {
     for (int s = 0; s < AB_STATISTIC_COUNT; s++) {
-        if (!is_tested(&tested->confirmed[s]))
+        ab_judged *again = &tested->confirmed[s];
+        if (!is_tested(again))
             continue;
-        judge_verdict(&tested->confirmed[s], policy->confirm_level);
-        tested->is_confirmed = tested->is_confirmed || tested->confirmed[s].verdict == AB_WORSE;
+        const bool is_there = again->adjusted <= policy->confirm_level &&
+                              again->shift.interval.median >= 0.5 * again->band;
+        again->verdict = is_there ? AB_WORSE : AB_UNCLEAR;
+        tested->is_confirmed = tested->is_confirmed || again->verdict == AB_WORSE;
     }
     tested->is_not_confirmed = !tested->is_confirmed;
     tested->verdict = tested->is_confirmed ? AB_WORSE : AB_UNCLEAR;

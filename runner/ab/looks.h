@@ -9,8 +9,8 @@
 typedef struct ab_tested {
     const double *differences[AB_STATISTIC_COUNT]; /* [ab_policy_pairs]; NAN: no such pair (yet);
                                                       NULL: the statistic is not used */
-    double noise[AB_STATISTIC_COUNT];              /* of a calibration, as in judge.h; 0: none */
-    bool is_out; /* it is not timed (any more); its tests stand as they are */
+    double least[AB_STATISTIC_COUNT]; /* that counts, as calibrated: judge.h; 0: not known */
+    bool is_out;                      /* it is not timed (any more); its tests stand as they are */
     /* ---- by looks_judge and looks_confirm */
     ab_judged judged[AB_STATISTIC_COUNT];    /* at the last look that it was open at */
     ab_judged confirmed[AB_STATISTIC_COUNT]; /* of the confirmation; pairs 0: there was none */
@@ -34,8 +34,8 @@ fm_status looks_judge(ab_tested *cases, size_t count, const ab_policy *policy, s
 /* Whether it is to have the pairs of a confirmation: worse, not yet confirmed, not is_out. */
 bool looks_suspects(const ab_tested *tested);
 /* Judges what all suspects' pairs of the confirmation say of the statistics that were worse: worse
- * again, if p of being slower, adjusted among the suspects, is at most policy->confirm_level, and
- * the interval is not inside the band. Others are unclear. */
+ * again, if p of being slower, adjusted among the suspects, is at most policy->confirm_level.
+ * Others are unclear. Whether it counts was judged before. */
 fm_status looks_confirm(ab_tested *cases, size_t count, const ab_policy *policy, fm_error *err);
 
 #endif

@@ -9,18 +9,21 @@
 /* One statistic of A/A pairs. */
 typedef struct ab_noise_statistic {
     double deviation;      /* standard deviation of the logarithms of ratios */
-    double standard_error; /* of the median of `planned` pairs; 0: not known */
-    uint32_t gates;        /* sets of `planned` pairs, one after the other */
-    uint32_t alarms;       /* of them: those that a first look would call worse or better */
+    double standard_error; /* of the estimates of a first look's pairs: judge.h; 0: not measured */
+    double detectable_first; /* logarithm of the smallest effect that 94 % of gates find that look
+                                at the first look's pairs alone, and confirm it on as many */
+    double detectable;       /* the same with all looks of the policy */
+    uint32_t gates;          /* sets of pairs of a first look, one after the other */
+    uint32_t alarms;         /* of them: those that a first look would call worse or better */
 } ab_noise_statistic;
 
 /* What was calibrated on one device. */
 typedef struct ab_noise {
     char device_name[128];
-    char measured[256];                                /* the case */
-    uint32_t pairs;                                    /* that it rests on */
-    uint32_t planned;                                  /* pairs of a first look */
-    ab_noise_statistic statistics[AB_STATISTIC_COUNT]; /* {0}: not measured */
+    char measured[256]; /* the case */
+    uint32_t pairs;     /* that it rests on */
+    uint32_t planned;   /* pairs of the first look */
+    ab_noise_statistic statistics[AB_STATISTIC_COUNT];
 } ab_noise;
 
 typedef struct ab_noise_list {
@@ -28,17 +31,19 @@ typedef struct ab_noise_list {
     size_t count;
 } ab_noise_list;
 
-/* From differences of A/A pairs, [count], NAN: no such pair. FM_INVALID: fewer than a look has;
- * FM_NO_MEMORY. */
-fm_status noise_of_pairs(ab_noise_statistic *noise, const double *differences, size_t count,
-                         const ab_policy *policy, fm_error *err);
-/* The smallest effect that counts at this many pairs, as a share: 0.031 is 3.1 %. */
-double noise_detectable(const ab_noise_statistic *noise, const ab_noise *of, uint32_t pairs,
-                        double band);
+/* Fills pairs, planned and statistics from differences of A/A pairs, [count] of each statistic;
+ * NAN: no such pair; NULL: the statistic is not used. Standard errors and detectable effects are
+ * those of sets of pairs that are drawn from them (draws.h). The two are told apart since, of pairs
+ * some of which are far off, three standard errors are found in 60 to 90 % of gates. The alarms are
+ * those of the pairs as they were measured. Takes a second or two. FM_INVALID: fewer pairs than a
+ * first look has; FM_NO_MEMORY. */
+fm_status noise_of_pairs(ab_noise *noise, const double *const differences[AB_STATISTIC_COUNT],
+                         size_t count, const ab_policy *policy, fm_error *err);
 
-/* The standard error of the median of `planned` pairs on a device; 0: it was not calibrated. */
-double noise_find(const ab_noise_list *list, const char *device_name, ab_statistic statistic,
-                  uint32_t planned);
+/* The logarithm of the smallest effect that counts on a device, with so many pairs at the first
+ * look; 0: it was not calibrated. */
+double noise_least(const ab_noise_list *list, const char *device_name, ab_statistic statistic,
+                   const ab_policy *policy);
 /* Takes the place of what the list has of that device. FM_NO_MEMORY. */
 fm_status noise_keep(ab_noise_list *list, const ab_noise *noise, fm_error *err);
 void noise_free(ab_noise_list *list);

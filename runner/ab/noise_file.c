@@ -36,17 +36,18 @@ fm_status noise_path(char path[FM_PATH_MAX_BYTES], const fm_machine *machine, fm
                                       : fm_fail(err, FM_INVALID, "%.64s...: too long a path", path);
 }
 
-static bool read_statistic(ab_noise_statistic *statistic, const json_t *json)
+static bool read_statistic(ab_noise_statistic *statistic, json_t *json)
 {
     json_int_t gates = 0, alarms = 0;
-    json_t *object = (json_t *)(uintptr_t)json; /* jansson unpacks no const, and changes none */
-    if (json_unpack(object, "{s:F, s:F, s:I, s:I}", "deviation", &statistic->deviation,
-                    "standard_error", &statistic->standard_error, "gates", &gates, "alarms",
-                    &alarms) != 0)
+    if (json_unpack(json, "{s:F, s:F, s:F, s:F, s:I, s:I}", "deviation", &statistic->deviation,
+                    "standard_error", &statistic->standard_error, "detectable_first",
+                    &statistic->detectable_first, "detectable", &statistic->detectable, "gates",
+                    &gates, "alarms", &alarms) != 0)
         return false;
     statistic->gates = (uint32_t)gates;
     statistic->alarms = (uint32_t)alarms;
-    return statistic->deviation >= 0.0 && statistic->standard_error >= 0.0 && gates >= 0 &&
+    return statistic->deviation >= 0.0 && statistic->standard_error >= 0.0 &&
+           statistic->detectable_first > 0.0 && statistic->detectable > 0.0 && gates >= 0 &&
            gates <= INT32_MAX && alarms >= 0 && alarms <= gates;
 }
 
@@ -65,7 +66,7 @@ static bool read_device(ab_noise *noise, json_t *json)
     noise->pairs = (uint32_t)pairs;
     noise->planned = (uint32_t)planned;
     for (int s = 0; s < AB_STATISTIC_COUNT; s++) {
-        const json_t *statistic = json_object_get(statistics, ab_statistic_names[s]);
+        json_t *statistic = json_object_get(statistics, ab_statistic_names[s]);
         if (statistic != NULL && !read_statistic(&noise->statistics[s], statistic))
             return false;
     }
@@ -135,11 +136,13 @@ static json_t *device_json(const ab_noise *noise)
     json_t *statistics = json_object();
     for (int s = 0; s < AB_STATISTIC_COUNT; s++) {
         const ab_noise_statistic *of = &noise->statistics[s];
-        if (of->gates > 0)
+        if (of->detectable > 0.0)
             json_object_set_new(statistics, ab_statistic_names[s],
-                                json_pack("{s:f, s:f, s:I, s:I}", "deviation", of->deviation,
-                                          "standard_error", of->standard_error, "gates",
-                                          (json_int_t)of->gates, "alarms", (json_int_t)of->alarms));
+                                json_pack("{s:f, s:f, s:f, s:f, s:I, s:I}", "deviation",
+                                          of->deviation, "standard_error", of->standard_error,
+                                          "detectable_first", of->detectable_first, "detectable",
+                                          of->detectable, "gates", (json_int_t)of->gates, "alarms",
+                                          (json_int_t)of->alarms));
     }
     return json_pack("{s:s, s:s, s:I, s:I, s:o}", "device_name", noise->device_name, "case",
                      noise->measured, "pairs", (json_int_t)noise->pairs, "planned",

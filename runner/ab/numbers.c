@@ -18,7 +18,8 @@ double numbers_of_launch(const fm_case_result *result, uint32_t launch, ab_stati
     for (size_t i = 0; i < result->sample_count; i++)
         if (result->samples[i].launch == launch && result->samples[i].metric == metrics[statistic])
             values[count++] = result->samples[i].value;
-    const double median = stats_median(values, count);
+    const double median = stats_median(values, count); /* which sorts them */
+    const double number = statistic == AB_CPU && count > 0 ? values[0] : median;
     free(values);
-    return median;
+    return number;
 }

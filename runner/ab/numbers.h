@@ -5,8 +5,8 @@
 #include "judge.h"
 #include "results/results.h"
 
-/* The median of the launch's frames, in milliseconds; NAN: the launch did not go well, or has no
- * such frames. */
+/* In milliseconds, as judge.h says: the median of the launch's frames, or the least. NAN: the
+ * launch did not go well, or has no such frames. */
 double numbers_of_launch(const fm_case_result *result, uint32_t launch, ab_statistic statistic);
 
 #endif
