@@ -137,6 +137,40 @@ static fm_status skip_alike(fm_case *base, fm_case *now, fm_error *err)
     return FM_OK;
 }
 
+/* NEW's row of a method that it refuses: nobody knows which keys and options it has, so that one
+ * row stands for all of BASE's. FM_TEXT_INDEX_NONE: it is not refused. */
+static size_t find_refused(const fm_plan *now, const fm_case *planned)
+{
+    for (size_t i = 0; i < now->count; i++)
+        if (now->cases[i].skip_status == FM_CASE_PLUGIN_ERROR && now->cases[i].skip != NULL &&
+            strcmp(now->cases[i].method, planned->method) == 0)
+            return i;
+    return FM_TEXT_INDEX_NONE;
+}
+
+/* The case of NEW that one of BASE is compared with; FM_TEXT_INDEX_NONE: there is none. */
+static size_t find_partner(const fm_text_index *index, const fm_plan *now, const fm_case *planned,
+                           bool has_method, bool *failed)
+{
+    fm_text key = { 0 };
+    add_key(&key, planned, has_method);
+    *failed = key.failed;
+    const size_t at = key.failed ? FM_TEXT_INDEX_NONE : text_index_find(index, key.bytes);
+    text_free(&key);
+    return at != FM_TEXT_INDEX_NONE ? at : find_refused(now, planned);
+}
+
+static fm_status take_pair(ab_pairs *pairs, fm_plan *base, size_t i, fm_plan *now, size_t at,
+                           fm_error *err)
+{
+    if (base->cases[i].skip != NULL && now->cases[at].skip != NULL) {
+        pairs->refused++;
+        return FM_OK;
+    }
+    pairs->items[pairs->count++] = (ab_pair){ { i, at } };
+    return skip_alike(&base->cases[i], &now->cases[at], err);
+}
+
 /* is_joined: [now->count], of NEW's cases. */
 static fm_status join_each(ab_pairs *pairs, bool *is_joined, fm_plan *base, fm_plan *now,
                            fm_error *err)
@@ -145,22 +179,17 @@ static fm_status join_each(ab_pairs *pairs, bool *is_joined, fm_plan *base, fm_p
     const bool has_method = !(has_one_method(base) && has_one_method(now));
     fm_status status = index_keys(&index, now, has_method, err);
     for (size_t i = 0; i < base->count && status == FM_OK; i++) {
-        fm_text key = { 0 };
-        add_key(&key, &base->cases[i], has_method);
-        const size_t at = key.failed ? FM_TEXT_INDEX_NONE : text_index_find(&index, key.bytes);
-        text_free(&key);
-        if (at == FM_TEXT_INDEX_NONE) {
+        bool failed;
+        const size_t at = find_partner(&index, now, &base->cases[i], has_method, &failed);
+        if (failed) {
+            status = fm_fail(err, FM_NO_MEMORY, "no memory for %zu cases", base->count);
+        } else if (at == FM_TEXT_INDEX_NONE) {
             pairs->unpaired++;
             status = skip(&base->cases[i], "NEW has no such case", err);
-            continue;
+        } else {
+            is_joined[at] = true;
+            status = take_pair(pairs, base, i, now, at, err);
         }
-        is_joined[at] = true;
-        if (base->cases[i].skip != NULL && now->cases[at].skip != NULL) {
-            pairs->refused++;
-            continue;
-        }
-        pairs->items[pairs->count++] = (ab_pair){ { i, at } };
-        status = skip_alike(&base->cases[i], &now->cases[at], err);
     }
     text_index_free(&index);
     return status;

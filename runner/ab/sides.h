@@ -38,6 +38,7 @@ typedef struct ab_pairs {
  * versions, and so their ids, may differ. Where each plan has one method, the two may be different
  * ones. Cases without a partner, and those whose partner is not launched, get a reason to be
  * skipped, so that nothing measures them in vain; a pair that only one side refuses stays a pair.
+ * One row of a method that NEW refuses as a whole stands for all cases that BASE has of it.
  * FM_INVALID: no case that either can run; FM_NO_MEMORY. The caller frees. */
 fm_status sides_join(ab_pairs *pairs, fm_plan *base, fm_plan *now, fm_error *err);
 void sides_free(ab_pairs *pairs);
