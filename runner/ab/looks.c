@@ -24,7 +24,7 @@ typedef struct test_place {
 /* Adjusts the p-values of tests for one another. */
 static fm_status adjust(test_place *tests, size_t count, fm_error *err)
 {
-    double *p = malloc((count + 1) * sizeof *p);
+    double *p = calloc(count + 1, sizeof *p);
     if (p == NULL)
         return fm_fail(err, FM_NO_MEMORY, "no memory for %zu tests", count);
     for (size_t i = 0; i < count; i++)
