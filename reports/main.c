@@ -10,6 +10,7 @@
 #include "claims/verdicts.h"
 #include "compare_command.h"
 #include "error_command.h"
+#include "gate_command.h"
 #include "history_command.h"
 #include "model/exit_code.h"
 #include "night_command.h"
@@ -246,8 +247,8 @@ static const struct {
     const char *name;
     int (*run)(int argc, char **argv);
 } commands[] = {
-    { "error", error_main },     { "compare", compare_main }, { "baseline", baseline_main },
-    { "history", history_main }, { "night", night_main },
+    { "error", error_main }, { "compare", compare_main }, { "baseline", baseline_main },
+    { "gate", gate_main },   { "history", history_main }, { "night", night_main },
 };
 
 static int run_command(const char *name, int (*run)(int argc, char **argv), int argc, char **argv)

@@ -10,6 +10,7 @@
 #include "inspect/dump.h"
 #include "nightly/nightly.h"
 #include "share/share.h"
+#include "regress/commands.h"
 #include "worker/worker.h"
 
 static const struct {
@@ -44,6 +45,12 @@ static const struct {
     { "baseline", "fragmark baseline", cli_baseline,
       "names a run, so that later ones are held against it" },
     { "history", "fragmark history", cli_history, "many nights: since when something is slower" },
+    { "ab", "fragmark ab", regress_ab,
+      "a method of two builds, by pairs of launches: is it slower?" },
+    { "gate", "fragmark gate", regress_gate,
+      "two builds, or two folders of results: exit code 1 if a case is worse" },
+    { "calibrate", "fragmark calibrate", regress_calibrate,
+      "how small a change this machine can see" },
     { "report", "fragmark report", cli_report, "charts and report.html again from the CSV" },
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/text.h"
+#include "model/outcome.h"
 #include "read/case_metrics.h"
 #include "tradeoff/error_kind.h"
 
@@ -161,6 +163,22 @@ fm_status exact_add_image(fm_changes *changes, const fm_pair *pair, const char *
     return is_one_driver && is_to_repeat(pair) && base[0] != '\0' && now[0] != '\0'
                ? compare_text(changes, "image", base, now, err)
                : FM_OK;
+}
+
+int exact_order(const fm_change *change)
+{
+    fm_case_status before, after;
+    fm_metric metric;
+    double base, now;
+    if (strcmp(change->name, "status") == 0)
+        return case_status_parse(&before, change->base) && case_status_parse(&after, change->now)
+                   ? (after < before) - (after > before)
+                   : 0;
+    if (!metric_find(&metric, change->name) || fm_metrics[metric].better == FM_BETTER_NEITHER ||
+        !text_to_double(&base, change->base) || !text_to_double(&now, change->now))
+        return 0;
+    const int less = (now < base) - (now > base);
+    return fm_metrics[metric].better == FM_BETTER_LESS ? less : -less;
 }
 
 void exact_free(fm_changes *changes)

@@ -32,6 +32,9 @@ fm_status exact_compare(fm_changes *changes, const fm_pair *pair, const fm_resul
  * repeat. FM_NO_MEMORY. */
 fm_status exact_add_image(fm_changes *changes, const fm_pair *pair, const char *base,
                           const char *now, fm_error *err);
+/* Whether a change is for the worse (below 0: another status of more harm, more bytes, more errors)
+ * or for the better (above 0). 0: nobody can say: the picture, options, counts of fragments. */
+int exact_order(const fm_change *change);
 void exact_free(fm_changes *changes);
 
 /* Which of the four hashes of code differ: "program driver plugin shaders", or a part of it; "":

@@ -20,6 +20,7 @@
 enum {
     CLI_DONE = FM_EXIT_DONE, /* model/exit_code.h says what each means */
     CLI_CLAIM_FAILS = FM_EXIT_CLAIM_FAILS,
+    CLI_WORSE = FM_EXIT_WORSE,
     CLI_USAGE = FM_EXIT_USAGE,
     CLI_NOTHING = FM_EXIT_NOTHING,
     CLI_SOME_FAILED = FM_EXIT_SOME_FAILED,
@@ -29,8 +30,8 @@ enum {
     CLI_SIGNAL = 128, /* + its number: interrupted, can be continued */
 };
 #define CLI_EXIT_CODES                                                                             \
-    "Exit codes: 0 done; 1 a claim that its figure declares required fails; 2 usage or spec "      \
-    "error, nothing was run; 3 nothing could be measured; "                                        \
+    "Exit codes: 0 done; 1 a claim that its figure declares required fails, or a case is worse "   \
+    "(ab, gate); 2 usage or spec error, nothing was run; 3 nothing could be measured; "            \
     "4 some cases failed (crash, timeout, out of memory, refused plugin, wrong image of an exact " \
     "method); 5 incomplete: a full disk, a missing driver, a limit or somebody's kill stopped "    \
     "the run, and the same command continues it, or the report cannot be drawn, or lacks "         \
@@ -179,6 +180,9 @@ int report_command(const char *const *argv);
  * that the report is to draw, cannot be read. Says so if there is no fragmark-report. figures: ids,
  * ends with NULL. */
 fm_status report_expect(const fm_arguments *arguments, const char *const *figures, fm_error *err);
+/* A command of that program, whose options are its own: its exit code, or CLI_NOTHING, told, where
+ * it cannot be executed. argv[0] is left out. */
+int report_pass_on(const fm_cli *cli, const char *command, int argc, char **argv);
 /* Why there is no fragmark-report here: the beginning of a sentence. */
 const char *report_missing(void);
 

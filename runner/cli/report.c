@@ -213,8 +213,7 @@ int cli_report(const fm_cli *cli, int argc, char **argv)
     return code < 0 ? CLI_NOTHING : code;
 }
 
-/* A command of the other program, whose options are its own. */
-static int pass_on(const fm_cli *cli, const char *command, int argc, char **argv)
+int report_pass_on(const fm_cli *cli, const char *command, int argc, char **argv)
 {
     char program[FM_PATH_MAX_BYTES];
     if (!report_find(program)) {
@@ -237,20 +236,20 @@ static int pass_on(const fm_cli *cli, const char *command, int argc, char **argv
 
 int cli_error(const fm_cli *cli, int argc, char **argv)
 {
-    return pass_on(cli, "error", argc, argv);
+    return report_pass_on(cli, "error", argc, argv);
 }
 
 int cli_compare(const fm_cli *cli, int argc, char **argv)
 {
-    return pass_on(cli, "compare", argc, argv);
+    return report_pass_on(cli, "compare", argc, argv);
 }
 
 int cli_history(const fm_cli *cli, int argc, char **argv)
 {
-    return pass_on(cli, "history", argc, argv);
+    return report_pass_on(cli, "history", argc, argv);
 }
 
 int cli_baseline(const fm_cli *cli, int argc, char **argv)
 {
-    return pass_on(cli, "baseline", argc, argv);
+    return report_pass_on(cli, "baseline", argc, argv);
 }

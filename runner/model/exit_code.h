@@ -5,6 +5,7 @@
 typedef enum fm_exit_code {
     FM_EXIT_DONE = 0,
     FM_EXIT_CLAIM_FAILS = 1, /* a claim that its figure declares required */
+    FM_EXIT_WORSE = 1,       /* ab, gate: a case is worse, confirmed or by its outputs */
     FM_EXIT_USAGE = 2,       /* usage or spec error: nothing was run, nothing replaced */
     FM_EXIT_NOTHING = 3,     /* nothing could be measured */
     FM_EXIT_SOME_FAILED = 4, /* crash, timeout, out of memory, refused plugin, wrong image */

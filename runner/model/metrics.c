@@ -35,6 +35,9 @@ const fm_metric_info fm_metrics[FM_METRIC_COUNT] = {
         FRAME, LESS, TIMED },
     [FM_METRIC_FRAME_WALL_MS] = { "frame_wall_ms", "frame, host", "ms",
         "the host's time for the same frame, with read-backs and waiting", FRAME, LESS, TIMED },
+    [FM_METRIC_FRAME_CPU_MS] = { "frame_cpu_ms", "frame, processors", "ms",
+        "processor time of all threads of the process for the same frame: of a software rasteriser its "
+        "work, which other programs hardly change; of a GPU what the driver does", FRAME, LESS, TIMED },
     [FM_METRIC_CLEAR_MS] = { "clear_ms", "clear", "ms", "pass clear", FRAME, LESS, TIMED },
     [FM_METRIC_COUNT_MS] = { "count_ms", "count", "ms", "pass count", FRAME, LESS, TIMED },
     [FM_METRIC_REFERENCE_MS] = { "reference_ms", "referencing step", "ms", "pass reference", FRAME,

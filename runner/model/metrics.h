@@ -14,6 +14,7 @@ typedef enum fm_metric {
     /* times of a frame */
     FM_METRIC_FRAME_MS,
     FM_METRIC_FRAME_WALL_MS,
+    FM_METRIC_FRAME_CPU_MS,
     FM_METRIC_CLEAR_MS,
     FM_METRIC_COUNT_MS,
     FM_METRIC_REFERENCE_MS,

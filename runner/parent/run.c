@@ -9,6 +9,7 @@
 #include "manifest.h"
 #include "results/noise.h"
 #include "run_internal.h"
+#include "run_open.h"
 
 static bool should_stop(run_state *run)
 {
@@ -188,50 +189,112 @@ static fm_status prepare(run_state *run, fm_error *err)
     return status;
 }
 
+fm_status run_open(fm_open_run **opened, const fm_plan *plan, const fm_plugin_list *plugins,
+                   const fm_run_desc *desc, fm_error *err)
+{
+    assert(plan->launches > 0 && plan->count < UINT32_MAX);
+    run_state *run = calloc(1, sizeof *run);
+    *opened = run;
+    if (run == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "no memory for a run");
+    *run = (run_state){ .plan = plan, .plugins = plugins, .desc = desc };
+    run->progress.out = desc->progress;
+    run->progress.always = desc->talk;
+    run->progress.is_terminal = desc->progress != NULL && isatty(fileno(desc->progress));
+    run->order = calloc(plan->count > 0 ? plan->count : 1, sizeof *run->order);
+    if (run->order == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "no memory for %zu cases", plan->count);
+    fm_status status = stop_signals_open(&run->signals, err);
+    run->hears_signals = status == FM_OK;
+    if (status == FM_OK)
+        status = prepare(run, err);
+    return status;
+}
+
+fm_status run_launch(fm_open_run *run, size_t case_index, uint32_t launch, fm_error *err)
+{
+    const size_t job = run->truths.of_case[case_index];
+    if (should_stop(run) || !run_is_pending(run, case_index) ||
+        run->results->cases[case_index].launches[launch].is_done)
+        return FM_OK;
+    if (run->truths.jobs[job].is_captured)
+        return run_measure(run, case_index, launch, err);
+    const fm_status status = run_capture_truth(run, job, err);
+    run->truths.jobs[job].is_captured = status == FM_OK && run->stop_signal == 0;
+    return status == FM_OK && run->stop_signal == 0 && run_is_pending(run, case_index)
+               ? run_measure(run, case_index, launch, err)
+               : status;
+}
+
+const fm_results *run_results(const fm_open_run *run)
+{
+    return run->results;
+}
+
+int run_stop_signal(fm_open_run *run)
+{
+    return should_stop(run) ? run->stop_signal : 0;
+}
+
+void run_settle(fm_open_run *run)
+{
+    for (size_t i = 0; i < run->plan->count; i++)
+        run->results->cases[i].is_enough = run->results->cases[i].done > 0;
+}
+
+/* What a run that went well writes at its end. */
+static fm_status write_end(fm_run_result *result, const run_state *run, fm_error *err)
+{
+    fm_status status = results_end(run->results, err);
+    if (status == FM_OK)
+        status = sum_noise(result, run, err);
+    if (status == FM_OK)
+        status = write_manifest(run, run->stop_signal == 0, err);
+    if (status == FM_OK && run->stop_signal == 0)
+        run_remove_truths(run);
+    return status;
+}
+
+static void free_run(run_state *run)
+{
+    journal_close(run->journal);
+    results_destroy(run->results);
+    codes_free(&run->codes);
+    json_decref(run->drivers);
+    truth_jobs_free(&run->truths);
+    text_index_free(&run->ids);
+    free(run->order);
+    free(run);
+}
+
+fm_status run_close(fm_run_result *result, fm_open_run *run, fm_status status, fm_error *err)
+{
+    *result = (fm_run_result){ 0 };
+    if (run == NULL)
+        return status;
+    if (status != FM_OK && run->is_resumed)
+        results_end(run->results, NULL); /* what had no turn has its row; nobody asks how it went */
+    else if (status != FM_OK)
+        run_remove_folders(run);
+    if (run->hears_signals)
+        stop_signals_close(&run->signals);
+    if (status == FM_OK)
+        status = write_end(result, run, err);
+    if (run->is_resumed)
+        count_outcomes(result, run);
+    result->is_damaged = run->is_damaged;
+    result->forgotten = run->forgotten;
+    result->is_other_code = run->is_other_code;
+    free_run(run);
+    return status;
+}
+
 fm_status run_cases(fm_run_result *result, const fm_plan *plan, const fm_plugin_list *plugins,
                     const fm_run_desc *desc, fm_error *err)
 {
-    fm_status status;
-    run_state run = { .plan = plan, .plugins = plugins, .desc = desc };
-    assert(plan->launches > 0 && plan->count < UINT32_MAX);
-    *result = (fm_run_result){ 0 };
-    run.progress.out = desc->progress;
-    run.progress.always = desc->talk;
-    run.progress.is_terminal = desc->progress != NULL && isatty(fileno(desc->progress));
-    run.order = calloc(plan->count > 0 ? plan->count : 1, sizeof *run.order);
-    if (run.order == NULL)
-        return fm_fail(err, FM_NO_MEMORY, "no memory for %zu cases", plan->count);
-    status = stop_signals_open(&run.signals, err);
-    const bool hears_signals = status == FM_OK;
+    fm_open_run *run;
+    fm_status status = run_open(&run, plan, plugins, desc, err);
     if (status == FM_OK)
-        status = prepare(&run, err);
-    if (status == FM_OK)
-        status = run_launches(&run, err);
-    if (status != FM_OK && run.is_resumed)
-        results_end(run.results, NULL); /* what had no turn has its row; nobody asks how it went */
-    else if (status != FM_OK)
-        run_remove_folders(&run);
-    if (hears_signals)
-        stop_signals_close(&run.signals);
-    if (status == FM_OK)
-        status = results_end(run.results, err);
-    if (status == FM_OK)
-        status = sum_noise(result, &run, err);
-    if (status == FM_OK)
-        status = write_manifest(&run, run.stop_signal == 0, err);
-    if (status == FM_OK && run.stop_signal == 0)
-        run_remove_truths(&run);
-    if (run.is_resumed)
-        count_outcomes(result, &run);
-    result->is_damaged = run.is_damaged;
-    result->forgotten = run.forgotten;
-    result->is_other_code = run.is_other_code;
-    journal_close(run.journal);
-    results_destroy(run.results);
-    codes_free(&run.codes);
-    json_decref(run.drivers);
-    truth_jobs_free(&run.truths);
-    text_index_free(&run.ids);
-    free(run.order);
-    return status;
+        status = run_launches(run, err);
+    return run_close(result, run, status, err);
 }

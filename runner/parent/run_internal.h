@@ -19,7 +19,8 @@
 #include "truth_jobs.h"
 #include "worker/protocol.h"
 
-typedef struct run_state {
+typedef struct fm_open_run run_state;
+struct fm_open_run {
     const fm_plan *plan;
     const fm_plugin_list *plugins;
     const fm_run_desc *desc;
@@ -36,9 +37,10 @@ typedef struct run_state {
     uint32_t *order; /* [plan->count]: of the running round */
     uint32_t forgotten;
     int stop_signal;
-    bool is_resumed; /* results hold all that an earlier run left */
+    bool is_resumed;    /* results hold all that an earlier run left */
+    bool hears_signals; /* they are open */
     bool is_damaged, is_other_code;
-} run_state;
+};
 
 /* run_files.c */
 /* DIRECTORY/FOLDER/NAMEENDING, or DIRECTORY/FOLDERENDING where name is "". FM_INVALID: too long. */

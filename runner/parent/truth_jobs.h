@@ -2,6 +2,8 @@
 #ifndef FM_TRUTH_JOBS_H
 #define FM_TRUTH_JOBS_H
 
+#include <stdbool.h>
+
 #include "plan/plan.h"
 #include "plugin/plugin.h"
 
@@ -14,6 +16,7 @@ typedef struct fm_truth_job {
     size_t of, last;   /* the first and the last case that need it */
     const char *floor; /* path of the floor's plugin; "": all its cases are skipped, or frames,
                           which have none */
+    bool is_captured;  /* by this process, or found: whoever chooses launches asks but once */
 } fm_truth_job;
 
 typedef struct fm_truth_jobs {

@@ -405,7 +405,7 @@ fm_status results_add(fm_results *results, size_t case_index, uint32_t launch, c
 bool results_is_finished(const fm_results *results, size_t case_index)
 {
     const fm_case_result *kept = &results->cases[case_index];
-    return kept->done == plan_case_launches(results->plan, case_index) ||
+    return kept->is_enough || kept->done == plan_case_launches(results->plan, case_index) ||
            !case_status_continues(kept->status);
 }
 

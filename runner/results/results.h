@@ -35,6 +35,7 @@ typedef struct fm_case_result {
     char message[2048];        /* the same */
     fm_launch_state *launches; /* [plan->launches] */
     uint32_t done;             /* launches that ended */
+    bool is_enough;            /* whoever chooses the launches wants no more of them */
     uint64_t *images;          /* [image_count]: hashes of different images, of all timed frames */
     size_t image_count;
     fm_kept_sample *samples;

@@ -83,7 +83,8 @@ static void write_message(fm_text *text, const row_state *row)
         snprintf(part, sizeof part, "unclear: only %zu samples at full clock", row->samples);
         add_part(&message, part);
     }
-    if (done > 0 && done < wanted && case_status_continues(row->result->status)) {
+    if (done > 0 && done < wanted && !row->result->is_enough &&
+        case_status_continues(row->result->status)) {
         snprintf(part, sizeof part, "%u of %u launches so far: the run is not finished", done,
                  wanted);
         add_part(&message, part);

@@ -73,6 +73,7 @@ static void add_frame(json_t *samples, uint32_t frame, const fm_sample *sample,
         add_passes(samples, frame, sample, desc->method);
     answer_add_sample(samples, frame, FM_METRIC_FRAME_MS, (double)sample->frame_ns * 1e-6);
     answer_add_sample(samples, frame, FM_METRIC_FRAME_WALL_MS, (double)sample->wall_ns * 1e-6);
+    answer_add_sample(samples, frame, FM_METRIC_FRAME_CPU_MS, (double)sample->cpu_ns * 1e-6);
     if (has_passes)
         answer_add_sample(samples, frame, FM_METRIC_FLOOR_STORE_MS,
                           (double)sample->floor_store_ns * 1e-6);

@@ -22,6 +22,7 @@ typedef struct fm_sample {
     uint64_t pass_ns[FM_MAX_PASSES]; /* with timers=frame 0, as floor_store_ns */
     uint64_t frame_ns;               /* of all passes together */
     uint64_t wall_ns;
+    uint64_t cpu_ns; /* of all threads of the process */
     uint64_t canary_ns;
     uint64_t floor_store_ns, floor_frame_ns;
 } fm_sample;

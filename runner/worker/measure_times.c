@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/clock.h"
 #include "measure_internal.h"
 
 enum { LONG_FRAME_SAMPLES = 2, LOSSY_FRAMES = 16 };
@@ -42,7 +43,9 @@ static fm_status sample_method(fm_sample *sample, fm_measurement *measurement,
                                const launch_pair *pair, fm_error *err)
 {
     fm_frame_result result;
+    const uint64_t cpu_ns = clock_process_ns();
     fm_status status = measure_frame(&result, measurement, pair->method, NULL, err);
+    sample->cpu_ns = clock_process_ns() - cpu_ns;
     memcpy(sample->pass_ns, result.pass_ns, sizeof sample->pass_ns);
     sample->frame_ns = frame_passes_ns(&result);
     sample->wall_ns = result.wall_ns;

@@ -235,7 +235,7 @@ awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
     "$here/timers/summary.csv" || complain "frames_may_have_one_timer: times in summary.csv"
 id=$(awk -F, 'NR == 3 { print $2 }' "$here/timers/summary.csv")
 metrics=$(grep ",$id,0,0," "$here/timers/samples.csv" | cut -d, -f6 | sort | paste -sd,)
-[ "$metrics" = canary_ns,floor_frame_ms,frame_ms,frame_wall_ms ] ||
+[ "$metrics" = canary_ns,floor_frame_ms,frame_cpu_ms,frame_ms,frame_wall_ms ] ||
     complain "frames_may_have_one_timer: samples of $metrics"
 
 # Killed at any moment, the same command continues and ends with the same rows.

@@ -1,0 +1,138 @@
+#!/usr/bin/env bash
+# ab_test.sh PROGRAM SOURCE CC: `ab`, `gate` and `calibrate` on the dummy device, whose frames take as long as they
+# take: outputs that are worse are named and end with exit code 1, equal ones with 0; a command that is killed
+# continues and launches nothing twice; wrong arguments and files are refused with the nearest name.
+set -euo pipefail
+program=$1
+source=$2
+compiler=$3
+methods=$(dirname "$program")/methods
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+fail() { echo "ab_test: $*" >&2; exit 1; }
+small=(-q --no-images --calibration none --device dummy -a n=4 -a k=2 -a width_px=16 -a height_px=12 -a frames=2 -a warmup=0)
+
+# want CODE ARGUMENT...: what is printed is in $work/said, what it talks in $work/talk
+want() {
+    local expected=$1 code=0
+    shift
+    "$program" "$@" >"$work/said" 2>"$work/talk" || code=$?
+    [ $code = "$expected" ] || fail "$*: exit code $code, not $expected: $(cat "$work/said" "$work/talk")"
+}
+says() { grep -qF -- "$1" "$work/said" "$work/talk" || fail "'$1' is not in: $(cat "$work/said" "$work/talk")"; }
+# launches DIR SIDE: how many ended
+launches() { grep -c '"event":"end"' "$work/$1/$2/journal.jsonl"; }
+
+mkdir -p "$work/base" "$work/fat" "$work/broken" "$work/build/methods"
+for folder in base fat broken build/methods; do cp -rL "$methods/kplus-heap" "$work/$folder/"; done
+cp -rL "$methods/ab-array" "$work/base/"
+cp -rL "$methods/ab-array" "$work/broken/"
+# Four more bytes a pixel.
+sed 's/\(\.name = "counters", \.extent = { \.per_pixel = \)1/\12/' "$source/methods/kplus-heap/method.c" >"$work/fat.c"
+! cmp -s "$work/fat.c" "$source/methods/kplus-heap/method.c" || fail "kplus-heap is not as it was: the copy has no more bytes"
+"$compiler" -shared -fPIC -fvisibility=hidden -I"$source/runner/include" -o "$work/fat/kplus-heap/kplus-heap.so" "$work/fat.c"
+echo 'no shader' >"$work/broken/kplus-heap/store.glsl"
+echo 'no plugin' >"$work/broken/kplus-heap/kplus-heap.so"
+
+# Equal builds; a build's folder is one with methods/.
+want 0 ab kplus-heap@"$work/base" kplus-heap@"$work/build" "${small[@]}" --pairs 6,8 -o "$work/equal" --csv "$work/equal.csv"
+says '1 case: 0 worse'
+cmp "$work/equal.csv" "$work/equal/ab.csv" || fail "--csv is not ab.csv"
+pairs=$(launches equal base)
+[ "$pairs" = "$(launches equal new)" ] || fail "not as many launches on both sides"
+[ $((pairs + 1)) = "$(wc -l <"$work/equal/pairs.csv")" ] || fail "pairs.csv has other pairs than the journals"
+first=$(tail -n +2 "$work/equal/pairs.csv" | cut -d, -f6 | sort | uniq -c | awk '{ print $1 }' | uniq | wc -l)
+[ "$first" = 1 ] || fail "BASE and NEW are not first as often: $(cat "$work/equal/pairs.csv")"
+# Again: nothing is launched, and the same is said.
+want 0 ab kplus-heap@"$work/base" kplus-heap@"$work/build" "${small[@]}" --pairs 6,8 -o "$work/equal" --json
+says '"outputs": "equal"'
+says '"is_finished": true'
+[ "$pairs" = "$(launches equal base)" ] || fail "a finished command launched again"
+cmp "$work/equal.csv" "$work/equal/ab.csv" || fail "replayed launches are judged otherwise"
+# Both sides are runs.
+want 0 gate "$work/equal/base" "$work/equal/new"
+says '1 case: 0 worse'
+says 'times were not judged'
+
+# More bytes: gate names them, and times nothing; ab goes on.
+want 1 gate "$work/base" "$work/fat" "${small[@]}" --pairs 6,8 -o "$work/fatter"
+grep '^worse .*kplus-heap .*bytes_allocated [0-9]* -> [0-9]*' "$work/said" >/dev/null || fail "the case is not named: $(cat "$work/said")"
+says "left out: method 'ab-array' is in base alone"
+[ "$(launches fatter new)" = 1 ] || fail "a case that is worse was timed"
+grep -q 'bytes_allocated' "$work/fatter/ab.csv" || fail "ab.csv does not say so"
+want 1 ab kplus-heap@"$work/base" kplus-heap@"$work/fat" "${small[@]}" --pairs 6,8 -o "$work/fat-ab"
+[ "$(launches fat-ab new)" -ge 6 ] || fail "ab did not time it"
+want 0 gate "$work/fat" "$work/base" "${small[@]}" --pairs 6,8 -o "$work/thinner" # and the other way round
+want 1 gate "$work/fatter/base" "$work/fatter/new"
+grep '^worse .*K+B-Heap.*bytes_allocated' "$work/said" >/dev/null || fail "results: the case is not named: $(cat "$work/said")"
+want 0 gate "$work/fatter/new" "$work/fatter/base"
+# A plugin that is refused now.
+want 1 gate "$work/base" "$work/broken" "${small[@]}" --pairs 6 -o "$work/refused"
+grep '^worse .*kplus-heap .*plugin_error' "$work/said" >/dev/null || fail "a refused plugin is not worse: $(cat "$work/said")"
+says '2 cases: 1 worse'
+want 2 gate "$work/base" "$work/broken" --method kplus-heap "${small[@]}" --pairs 6 -o "$work/refused"
+says 'is refused'
+
+# Killed, then again: what ended stays.
+"$program" ab kplus-heap@"$work/base" kplus-heap@"$work/build" "${small[@]}" --pairs 40 -o "$work/killed" >/dev/null 2>&1 &
+parent=$!
+for _ in $(seq 600); do
+    [ "$(cat "$work/killed/new/journal.jsonl" 2>/dev/null | grep -c '"event":"end"')" -lt 5 ] || break
+    sleep 0.02
+done
+kill -KILL $parent
+wait $parent 2>/dev/null || true
+before=$(launches killed base)
+[ "$before" -ge 5 ] && [ "$before" -lt 40 ] || fail "it was not killed in the middle: $before launches"
+want 0 ab kplus-heap@"$work/base" kplus-heap@"$work/build" "${small[@]}" --pairs 40 -o "$work/killed"
+for side in base new; do
+    twice=$(grep '"event":"end"' "$work/killed/$side/journal.jsonl" | sed 's/.*"launch":\([0-9]*\).*/\1/' | sort | uniq -d)
+    [ -z "$twice" ] || fail "$side: launches $twice were measured twice"
+    [ "$(launches killed $side)" = 40 ] || fail "$side: $(launches killed $side) launches, not 40"
+done
+# Interrupted: it says so, and judges nothing.
+"$program" ab kplus-heap@"$work/base" kplus-heap@"$work/build" "${small[@]}" --pairs 400 -o "$work/stopped" >"$work/said" 2>"$work/talk" &
+parent=$!
+for _ in $(seq 600); do
+    [ "$(cat "$work/stopped/new/journal.jsonl" 2>/dev/null | grep -c '"event":"end"')" -lt 3 ] || break
+    sleep 0.02
+done
+kill -TERM $parent
+code=0
+wait $parent || code=$?
+[ $code = 143 ] || fail "interrupted: exit code $code"
+says 'nothing is judged yet'
+
+# A calibration is kept, read, and refused on another machine.
+want 0 calibrate -q --pairs 20 --device dummy -a n=4 -a k=2 -a width_px=16 -a height_px=12 -a frames=2 -o "$work/state/here.json"
+says 'changes count from'
+want 0 ab kplus-heap@"$work/base" kplus-heap@"$work/build" "${small[@]}" --calibration "$work/state/here.json" --pairs 6 -o "$work/calibrated"
+sed 's/"fingerprint": "[0-9a-f]*"/"fingerprint": "0123456789abcdef"/' "$work/state/here.json" >"$work/state/there.json"
+want 2 ab kplus-heap@"$work/base" kplus-heap@"$work/build" "${small[@]}" --calibration "$work/state/there.json" -o "$work/none"
+says 'another machine'
+XDG_STATE_HOME=$work/state want 0 calibrate -q --pairs 20 --device dummy -a n=4 -a k=2 -a width_px=16 -a height_px=12 -a frames=2
+[ "$(find "$work/state/fragmark/calibration" -name '*.json' | wc -l)" = 1 ] || fail "the calibration is not in XDG_STATE_HOME"
+
+# What cannot be.
+want 2 ab kplus-heap@"$work/base" "${small[@]}"
+want 2 ab kplus-heap "kplus-heap@$work/base" "${small[@]}"
+says 'METHOD@DIR, please'
+want 2 ab kplus-hepa@"$work/base" kplus-heap@"$work/base" "${small[@]}"
+says "the nearest is 'kplus-heap'"
+want 2 ab ab-ll@"$work/base" ab-ll@"$work/base" "${small[@]}" # the program's own is not meant
+says "has no method 'ab-ll'"
+want 2 ab kplus-heap@"$work/none" kplus-heap@"$work/base" "${small[@]}"
+says 'No such file'
+want 2 ab kplus-heap@"$work/base" kplus-heap@"$work/base" "${small[@]}" -a launches=3
+says '--pairs'
+want 2 ab kplus-heap@"$work/base" kplus-heap@"$work/base" "${small[@]}" --pairs 20,10
+says 'at least 21'
+want 2 ab kplus-heap@"$work/base" kplus-heap@"$work/base" "${small[@]}" --band none
+want 2 gate "$work/base"
+want 2 gate "$work/base" "$work/state"
+says 'no plugin lies there'
+for command in ab gate calibrate; do
+    "$program" $command --help >"$work/said"
+    grep -q "fragmark $command" "$work/said" && grep -q 'Examples:' "$work/said" || fail "$command --help has no examples"
+done
+echo "ab_test: passed"

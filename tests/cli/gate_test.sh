@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# gate_test.sh PROGRAM: `gate` on a software rasteriser. A copy of kplus-heap outside of the tree whose shader was made
+# slower is found, confirmed and named, with exit code 1; copies that are equal end with 0. Processor time decides,
+# since other programs hardly change it. GATES=N runs N gates of equal copies (1), and tells what they said.
+set -euo pipefail
+program=$1
+gates=${GATES:-1}
+methods=$(dirname "$program")/methods
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+fail() { echo "gate_test: $*" >&2; exit 1; }
+"$program" doctor 2>&1 | grep -qi 'llvmpipe' || { echo "gate_test: no lavapipe here"; exit 77; }
+small=(-q --no-images --calibration none -a n=16 -a k=4 -a width_px=214 -a height_px=120)
+
+mkdir -p "$work/base" "$work/equal" "$work/slow"
+for folder in base equal slow; do cp -rL "$methods/kplus-heap" "$work/$folder/"; done
+# Some 2000 multiplications a pixel, whose result nobody can know to be of no use.
+cat >"$work/slow/kplus-heap/clear.glsl" <<'GLSL'
+void clear(uvec2 pixel)
+{
+    uint x = pixel.x;
+    FM_LOOP for (uint i = 0u; i < 2000u; i++)
+        x = x * 1664525u + 1013904223u;
+    counters[fm_pixel_index(pixel)] = x == 0xFFFFFFFFu && pixel.y == 0x7FFFFFFFu ? 1u : 0u;
+}
+GLSL
+
+code=0
+"$program" gate "$work/base" "$work/slow" "${small[@]}" --pairs 10,20 -o "$work/slower" >"$work/said" 2>&1 || code=$?
+[ $code = 1 ] || fail "slower: exit code $code: $(cat "$work/said")"
+grep '^worse .*kplus-heap .*confirmed on 10 fresh pairs' "$work/said" >/dev/null || fail "the case is not named: $(cat "$work/said")"
+grep -q ',confirmation,' "$work/slower/pairs.csv" || fail "nothing was measured to confirm it"
+
+wrong=0
+for i in $(seq "$gates"); do
+    code=0
+    "$program" gate "$work/base" "$work/equal" "${small[@]}" --seed "$i" --pairs 10,20 -o "$work/equal-$i" >"$work/said" 2>&1 || code=$?
+    grep '^\(worse\|unclear\|same\|better\)' "$work/said"
+    [ $code = 0 ] || [ $code = 1 ] || fail "equal: exit code $code: $(cat "$work/said")"
+    wrong=$((wrong + code))
+done
+[ $wrong = 0 ] || fail "$wrong of $gates gates of equal copies ended with 1"
+echo "gate_test: passed"
