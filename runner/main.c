@@ -9,8 +9,8 @@
 #include "devices.h"
 #include "inspect/dump.h"
 #include "nightly/nightly.h"
-#include "share/share.h"
 #include "regress/commands.h"
+#include "share/share.h"
 #include "worker/worker.h"
 
 static const struct {
