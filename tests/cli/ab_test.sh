@@ -10,7 +10,8 @@ methods=$(dirname "$program")/methods
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 fail() { echo "ab_test: $*" >&2; exit 1; }
-small=(-q --no-images --calibration none --device dummy -a n=4 -a k=2 -a width_px=16 -a height_px=12 -a frames=2 -a warmup=0)
+# The dummy's times are equal; its processor times are microseconds, which are not looked at closely.
+small=(-q --no-images --calibration none --band 100% --device dummy -a n=4 -a k=2 -a width_px=16 -a height_px=12 -a frames=2 -a warmup=0)
 
 # want CODE ARGUMENT...: what is printed is in $work/said, what it talks in $work/talk
 want() {
@@ -83,7 +84,7 @@ done
 kill -KILL $parent
 wait $parent 2>/dev/null || true
 before=$(launches killed base)
-[ "$before" -ge 5 ] && [ "$before" -lt 40 ] || fail "it was not killed in the middle: $before launches"
+[ "$before" -ge 4 ] && [ "$before" -lt 40 ] || fail "it was not killed in the middle: $before launches"
 want 0 ab kplus-heap@"$work/base" kplus-heap@"$work/build" "${small[@]}" --pairs 40 -o "$work/killed"
 for side in base new; do
     twice=$(grep '"event":"end"' "$work/killed/$side/journal.jsonl" | sed 's/.*"launch":\([0-9]*\).*/\1/' | sort | uniq -d)
