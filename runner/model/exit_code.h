@@ -8,12 +8,12 @@ typedef enum fm_exit_code {
     FM_EXIT_USAGE = 2,       /* usage or spec error: nothing was run, nothing replaced */
     FM_EXIT_NOTHING = 3,     /* nothing could be measured */
     FM_EXIT_SOME_FAILED = 4, /* crash, timeout, out of memory, refused plugin, wrong image */
-    FM_EXIT_INCOMPLETE = 5, /* the world stopped the run, a full disk say: it can be continued; a
-                               report was drawn of results that lack something; or shards are
-                               missing, and the others were merged */
-    FM_EXIT_OTHER_CODE = 7, /* rows were begun with other code than is here now; or runs do not
-                               compare: milliseconds of two machines, no case in both, shards of
-                               two programs */
+    FM_EXIT_INCOMPLETE = 5,  /* the world stopped the run, a full disk say: it can be continued; a
+                                report was drawn of results that lack something; or shards are
+                                missing, and the others were merged */
+    FM_EXIT_OTHER_CODE = 7,  /* rows were begun with other code than is here now; or runs do not
+                                compare: milliseconds of two machines, no case in both, shards of
+                                two programs */
     FM_EXIT_DAMAGED = 8, /* a damaged or foreign file, or one that is gone: nothing was replaced */
 } fm_exit_code;
 
