@@ -1,5 +1,6 @@
 #include "agree.h"
 
+#include <assert.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -34,6 +35,7 @@ static fm_status add_entry(code_book *book, const char *name, uint64_t hash, siz
         book->entries = grown;
         book->room = room;
     }
+    assert(book->entries != NULL);
     book->entries[book->count++] = (struct entry){ hash, folder };
     return FM_OK;
 }
@@ -44,6 +46,7 @@ static fm_status check_entry(code_book *book, const shard_set *set, const char *
     const size_t at = text_index_find(&book->names, name);
     if (at == FM_TEXT_INDEX_NONE)
         return add_entry(book, name, hash, folder, err);
+    assert(book->entries != NULL);
     if (book->entries[at].hash == hash)
         return FM_OK;
     const shard_folder *a = &set->folders[book->entries[at].folder], *b = &set->folders[folder];

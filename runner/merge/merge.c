@@ -1,7 +1,6 @@
 #include "merge.h"
 
 #include <stdio.h>
-#include <string.h>
 
 #include "agree.h"
 #include "merged_files.h"

@@ -15,46 +15,49 @@ static const char *text_of(const json_t *object, const char *name)
 }
 
 /* The least, or the greatest, of a text that sorts: times of UTC. "": a shard has none. */
-static const char *extreme(const shard_set *set, const char *name, int sign)
+static const char *extreme(const shard_set *set, const char *name, bool is_latest)
 {
     const char *best = text_of(set->folders[0].manifest, name);
     for (size_t i = 1; i < set->count; i++) {
         const char *text = text_of(set->folders[i].manifest, name);
         if (text[0] == '\0' || best[0] == '\0')
             return "";
-        best = sign * strcmp(text, best) > 0 ? text : best;
+        best = (strcmp(text, best) > 0) == is_latest ? text : best;
     }
     return best;
 }
 
-/* Facts of machines side by side: "A; B" where they differ. */
+/* A fact of all machines: "A; B" where they differ. */
+static json_t *machine_fact(const shard_set *set, const char *name)
+{
+    fm_text text = { 0 };
+    fm_text_list seen = { 0 };
+    json_t *value = NULL;
+    for (size_t i = 0; i < set->count; i++) {
+        const json_t *machine = json_object_get(set->folders[i].manifest, "machine");
+        json_t *of = json_object_get(machine, name);
+        char *dumped = of != NULL ? json_dumps(of, JSON_ENCODE_ANY) : NULL;
+        const char *told = json_is_string(of) ? json_string_value(of) : dumped;
+        if (told != NULL && !text_list_has(&seen, told)) {
+            text_add(&text, "%s%s", seen.count > 0 ? "; " : "", told);
+            text_list_add(&seen, told);
+            value = of;
+        }
+        free(dumped);
+    }
+    value = seen.count > 1 ? json_string(text.bytes) : json_incref(value);
+    text_list_free(&seen);
+    text_free(&text);
+    return value;
+}
+
 static json_t *machine_json(const shard_set *set)
 {
     json_t *joined = json_object(), *machine = json_object_get(set->folders[0].manifest, "machine");
     const char *name;
     json_t *value;
     json_object_foreach(machine, name, value)
-    {
-        fm_text text = { 0 };
-        fm_text_list seen = { 0 };
-        for (size_t i = 0; i < set->count; i++) {
-            json_t *of =
-                json_object_get(json_object_get(set->folders[i].manifest, "machine"), name);
-            char *dumped = of != NULL ? json_dumps(of, JSON_ENCODE_ANY) : NULL;
-            const char *told = json_is_string(of) ? json_string_value(of) : dumped;
-            if (told != NULL && !text_list_has(&seen, told)) {
-                text_add(&text, "%s%s", seen.count > 0 ? "; " : "", told);
-                text_list_add(&seen, told);
-            }
-            free(dumped);
-        }
-        if (seen.count > 1)
-            json_object_set_new(joined, name, json_string(text.bytes));
-        else
-            json_object_set(joined, name, value);
-        text_list_free(&seen);
-        text_free(&text);
-    }
+        json_object_set_new(joined, name, machine_fact(set, name));
     return joined;
 }
 
@@ -138,7 +141,7 @@ static json_t *manifest_json(const shard_set *set, const fm_merge_desc *desc,
     static const char *const lists[] = { "devices", "scenes", "codes" };
     static const char *const objects[] = { "methods", "modelled", "meshes" };
     char run_id[17];
-    const char *ended = extreme(set, "ended", 1);
+    const char *ended = extreme(set, "ended", true);
     make_run_id(run_id, set);
     json_t *manifest = json_object();
     for (size_t i = 0; i < sizeof same / sizeof same[0]; i++) {
@@ -148,7 +151,7 @@ static json_t *manifest_json(const shard_set *set, const fm_merge_desc *desc,
     }
     json_object_set_new(manifest, "run_id", json_string(run_id));
     json_object_set_new(manifest, "command", json_string(desc->command));
-    json_object_set_new(manifest, "started", json_string(extreme(set, "started", -1)));
+    json_object_set_new(manifest, "started", json_string(extreme(set, "started", false)));
     if (is_ended && missing->count == 0 && ended[0] != '\0')
         json_object_set_new(manifest, "ended", json_string(ended));
     json_object_set_new(manifest, "machine", machine_json(set));

@@ -48,34 +48,39 @@ static fm_status write_summary(const shard_set *set, const char *directory, fm_e
     return write_text(&text, directory, "summary.csv", err);
 }
 
+/* What shards.csv tells of a case in a shard. */
+static const char *const told[] = {
+    "status",          "frame_ms",         "frame_ms_low", "frame_ms_high", "times_floor",
+    "times_floor_low", "times_floor_high", "device_name",  "code_driver",   "noisy"
+};
+enum { TOLD = sizeof told / sizeof told[0] };
+
+static void add_shard_row(fm_text *text, const shard_set *set, size_t folder, size_t row)
+{
+    const shard_folder *of = &set->folders[folder];
+    const size_t index = of->case_of[row];
+    if (index == SHARD_NONE)
+        return;
+    text_add(text, "%s,%u,%s,%d", shard_set_id(set, index), of->index, of->run_id,
+             set->taken[index].folder == folder);
+    for (size_t i = 0; i < TOLD; i++) {
+        text_add(text, ",");
+        csv_add(text, table_cell(of->summary, row, table_column(of->summary, told[i])));
+    }
+    text_add(text, "\n");
+}
+
 /* shards.csv: of which shard a case's times are, and what the others measured of it. */
 static fm_status write_shards(const shard_set *set, const char *directory, fm_error *err)
 {
-    static const char *const told[] = {
-        "status",          "frame_ms",         "frame_ms_low", "frame_ms_high", "times_floor",
-        "times_floor_low", "times_floor_high", "device_name",  "code_driver",   "noisy"
-    };
-    enum { TOLD = sizeof told / sizeof told[0] };
     fm_text text = { 0 };
     text_add(&text, "case_id,shard,run_id,is_merged");
     for (size_t i = 0; i < TOLD; i++)
         text_add(&text, ",%s", told[i]);
     text_add(&text, "\n");
-    for (size_t i = 0; i < set->count; i++) {
-        const shard_folder *of = &set->folders[i];
-        for (size_t row = 0; row < of->summary->row_count; row++) {
-            const size_t index = of->case_of[row];
-            if (index == SHARD_NONE)
-                continue;
-            text_add(&text, "%s,%u,%s,%d", shard_set_id(set, index), of->index, of->run_id,
-                     set->taken[index].folder == i);
-            for (size_t j = 0; j < TOLD; j++) {
-                text_add(&text, ",");
-                csv_add(&text, table_cell(of->summary, row, table_column(of->summary, told[j])));
-            }
-            text_add(&text, "\n");
-        }
-    }
+    for (size_t i = 0; i < set->count; i++)
+        for (size_t row = 0; row < set->folders[i].summary->row_count; row++)
+            add_shard_row(&text, set, i, row);
     return write_text(&text, directory, "shards.csv", err);
 }
 
@@ -135,7 +140,7 @@ static fm_status write_samples(const shard_set *set, const char *directory, bool
     }
     for (size_t i = 0; i < set->count && status == FM_OK; i++)
         status = add_samples(file, set, i, err);
-    *is_damaged = status == FM_INVALID;
+    *is_damaged = status != FM_OK && status != FM_NO_MEMORY; /* read, so far */
     const bool is_written = fflush(file) == 0 && !ferror(file) && fsync(fd) == 0;
     if (status == FM_OK && !is_written)
         status = fm_fail(err, FM_IO, "%s: %s", partial, strerror(errno));

@@ -1,5 +1,6 @@
 #include "shard_set.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -89,6 +90,7 @@ bool shard_set_is_due(const shard_set *set, size_t folder, size_t case_index)
 static void take_row(shard_set *set, size_t folder, size_t row, size_t case_index)
 {
     const shard_folder *of = &set->folders[folder];
+    assert(set->taken != NULL);
     if (set->taken[case_index].folder == SHARD_NONE || of->shard_of[case_index] == of->index)
         set->taken[case_index] = (shard_row){ folder, row };
 }
@@ -98,6 +100,7 @@ static fm_status index_rows_of(shard_set *set, size_t folder, uint32_t *seen, fm
 {
     shard_folder *of = &set->folders[folder];
     const fm_table *summary = of->summary;
+    assert(seen != NULL);
     of->case_of = calloc(summary->row_count + 1, sizeof *of->case_of);
     if (of->case_of == NULL)
         return no_memory(err);

@@ -1,7 +1,6 @@
 #include "differences.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "code/code_json.h"

@@ -1,5 +1,6 @@
 #include "verify.h"
 
+#include <assert.h>
 #include <errno.h>
 #include <fts.h>
 #include <jansson.h>
@@ -110,6 +111,7 @@ static fm_status check_file(fm_verify_result *result, found_files *found, const 
     const size_t index = text_index_find(&found->index, path);
     if (index == FM_TEXT_INDEX_NONE)
         return tell(&result->missing, path, "", err);
+    assert(found->is_listed != NULL);
     found->is_listed[index] = true;
     return check_content(result, folder, path, bytes, hash, err);
 }

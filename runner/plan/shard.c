@@ -155,7 +155,7 @@ static uint32_t least_of(const double *seconds, uint32_t count)
 static fm_status deal_groups(dealing *deal, uint32_t count, fm_error *err)
 {
     double *seconds = calloc(count, sizeof *seconds);
-    group **order = calloc(deal->group_count + 1, sizeof *order);
+    group **order = calloc(deal->group_count + 1, sizeof(group *));
     const bool has_room = seconds != NULL && order != NULL;
     for (size_t i = 0; i < deal->plan->count; i++)
         if (!deal->is_reference[i])
@@ -163,7 +163,7 @@ static fm_status deal_groups(dealing *deal, uint32_t count, fm_error *err)
     for (size_t i = 0; has_room && i < deal->group_count; i++)
         order[i] = &deal->groups[i];
     if (has_room)
-        qsort(order, deal->group_count, sizeof *order, compare_groups);
+        qsort(order, deal->group_count, sizeof(group *), compare_groups);
     for (size_t i = 0; has_room && i < deal->group_count; i++) {
         const uint32_t least = least_of(seconds, count);
         seconds[least] += order[i]->seconds;

@@ -124,6 +124,14 @@ damage 8 'is none of shard' '2s/,[0-9a-f]\{16\},/,0123456789abcdef,/' summary.cs
 damage 8 'cells where' '3s/,/,,/' summary.csv
 damage 8 'has two rows' '2{h;G}' summary.csv
 
+rm -rf "$work/twin"
+cp -r "$work/shards/1" "$work/twin"
+rm "$work/twin/samples.csv"
+expect 8 'samples.csv: No such file' merge "$work/twin" "$work"/shards/{2..16} -o "$work/torn" --no-report
+expect 0 '48 of 48' merge "$work"/shards/* -o "$work/torn" --no-report
+same "$work/whole" "$work/torn"
+expect 2 '/proc/nowhere' merge "$work"/shards/* -o /proc/nowhere/x
+
 # A reference that differs where it must not; one whose time differs
 id=$(awk -F, '$3 == 1 { print $1 }' "$work/shards/2/shard.csv")
 column() { # NAME: its number
