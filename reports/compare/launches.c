@@ -56,56 +56,54 @@ static bool is_first_of_launch(const launch_values *values, size_t index)
     return true;
 }
 
-fm_status launches_numbers(fm_launch_numbers **numbers, size_t *count,
-                           const fm_result_files *results, const fm_case_row *row,
-                           const char *metric, const char *over, fm_error *err)
+fm_status launches_numbers(fm_launch_list *list, const fm_result_files *results,
+                           const fm_case_row *row, const char *metric, const char *over,
+                           fm_error *err)
 {
     const fm_sample_rows *samples = &results->samples;
     const size_t index = (size_t)(row - results->cases);
     const size_t most = samples->first[index + 1] - samples->first[index] + 1;
     launch_values of, floor;
-    fm_launch_numbers *made = calloc(most, sizeof *made);
     double *room = calloc(most, sizeof *room);
     const bool has_of = open_values(&of, most), has_floor = open_values(&floor, most);
-    const bool has_memory = made != NULL && room != NULL && has_of && has_floor;
-    *numbers = NULL;
-    *count = 0;
+    *list = (fm_launch_list){ calloc(most, sizeof *list->items), 0 };
+    const bool has_memory = list->items != NULL && room != NULL && has_of && has_floor;
     if (has_memory) {
         fill(&of, samples, index, metric);
         fill(&floor, samples, index, over);
-        for (size_t i = 0; i < of.count; i++) {
-            const uint32_t launch = of.launch_of[i];
-            if (is_first_of_launch(&of, i))
-                made[(*count)++] = (fm_launch_numbers){ launch, median_of(&of, launch, room),
-                                                        median_of(&floor, launch, room) };
-        }
-        *numbers = made;
-        made = NULL;
     }
+    for (size_t i = 0; has_memory && i < of.count; i++)
+        if (is_first_of_launch(&of, i))
+            list->items[list->count++] =
+                (fm_launch_numbers){ of.launch_of[i], median_of(&of, of.launch_of[i], room),
+                                     median_of(&floor, of.launch_of[i], room) };
     close_values(&floor);
     close_values(&of);
     free(room);
-    free(made);
-    return has_memory ? FM_OK : fm_fail(err, FM_NO_MEMORY, "no memory for %zu samples", most);
+    if (has_memory)
+        return FM_OK;
+    free(list->items);
+    *list = (fm_launch_list){ 0 };
+    return fm_fail(err, FM_NO_MEMORY, "no memory for %zu samples", most);
 }
 
 fm_interval launches_ratio(const fm_result_files *results, const fm_case_row *row,
                            const char *metric, const char *over)
 {
     fm_interval interval = { NAN, NAN, NAN };
-    fm_launch_numbers *numbers;
-    size_t count, kept = 0;
-    if (launches_numbers(&numbers, &count, results, row, metric, over, NULL) != FM_OK)
+    fm_launch_list list;
+    size_t kept = 0;
+    if (launches_numbers(&list, results, row, metric, over, NULL) != FM_OK)
         return interval;
-    double *ratios = calloc(count + 1, sizeof *ratios);
-    for (size_t i = 0; i < count && ratios != NULL; i++) {
-        const double ratio = numbers[i].value / numbers[i].over;
+    double *ratios = calloc(list.count + 1, sizeof *ratios);
+    for (size_t i = 0; i < list.count && ratios != NULL; i++) {
+        const double ratio = list.items[i].value / list.items[i].over;
         if (isfinite(ratio))
             ratios[kept++] = ratio;
     }
     if (ratios != NULL)
         interval = stats_interval(ratios, kept);
     free(ratios);
-    free(numbers);
+    free(list.items);
     return interval;
 }
