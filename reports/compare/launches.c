@@ -52,23 +52,23 @@ static double take_median(size_t *at, const launch_values *from, uint32_t launch
     return stats_median(room, count);
 }
 
-fm_status launches_numbers(fm_launch_numbers **numbers, size_t *count,
-                           const fm_result_files *results, const fm_case_row *row,
-                           const char *metric, const char *over, fm_error *err)
+fm_status launches_numbers(fm_launch_list *list, const fm_result_files *results,
+                           const fm_case_row *row, const char *metric, const char *over,
+                           fm_error *err)
 {
     const fm_sample_rows *samples = &results->samples;
     const size_t index = (size_t)(row - results->cases);
     launch_values of, floor;
     const bool has_of = open_values(&of, samples, index, metric);
     const bool has_floor = open_values(&floor, samples, index, over);
-    double *room = calloc(of.count + floor.count + 1, sizeof *room);
-    fm_launch_numbers *made = calloc(of.count + 1, sizeof *made);
-    const bool has_memory = has_of && has_floor && room != NULL && made != NULL;
+    const size_t most = of.count + floor.count + 1;
+    double *room = calloc(most, sizeof *room);
+    *list = (fm_launch_list){ calloc(of.count + 1, sizeof *list->items), 0 };
+    const bool has_memory = has_of && has_floor && room != NULL && list->items != NULL;
     size_t at = 0, over_at = 0;
-    *count = 0;
     while (has_memory && at < of.count) {
         const uint32_t launch = of.items[at].launch;
-        fm_launch_numbers *one = &made[(*count)++];
+        fm_launch_numbers *one = &list->items[list->count++];
         one->launch = launch;
         one->value = take_median(&at, &of, launch, room);
         one->over = take_median(&over_at, &floor, launch, room);
@@ -76,30 +76,30 @@ fm_status launches_numbers(fm_launch_numbers **numbers, size_t *count,
     free(room);
     free(floor.items);
     free(of.items);
-    *numbers = has_memory ? made : NULL;
-    if (!has_memory)
-        free(made);
-    return has_memory ? FM_OK
-                      : fm_fail(err, FM_NO_MEMORY, "no memory for the launches of %.64s", row->id);
+    if (has_memory)
+        return FM_OK;
+    free(list->items);
+    *list = (fm_launch_list){ 0 };
+    return fm_fail(err, FM_NO_MEMORY, "no memory for %zu samples", most);
 }
 
 fm_interval launches_ratio(const fm_result_files *results, const fm_case_row *row,
                            const char *metric, const char *over)
 {
     fm_interval interval = { NAN, NAN, NAN };
-    fm_launch_numbers *numbers;
-    size_t count, kept = 0;
-    if (launches_numbers(&numbers, &count, results, row, metric, over, NULL) != FM_OK)
+    fm_launch_list list;
+    size_t kept = 0;
+    if (launches_numbers(&list, results, row, metric, over, NULL) != FM_OK)
         return interval;
-    double *ratios = calloc(count + 1, sizeof *ratios);
-    for (size_t i = 0; i < count && ratios != NULL; i++) {
-        const double ratio = numbers[i].value / numbers[i].over;
+    double *ratios = calloc(list.count + 1, sizeof *ratios);
+    for (size_t i = 0; i < list.count && ratios != NULL; i++) {
+        const double ratio = list.items[i].value / list.items[i].over;
         if (isfinite(ratio))
             ratios[kept++] = ratio;
     }
     if (ratios != NULL)
         interval = stats_interval(ratios, kept);
     free(ratios);
-    free(numbers);
+    free(list.items);
     return interval;
 }

@@ -17,10 +17,15 @@ typedef struct fm_launch_numbers {
     double value, over; /* medians of its frames; NAN: it has none */
 } fm_launch_numbers;
 
-/* Of all launches that have the metric, in the order of samples.csv. *numbers is the caller's to
- * free, and NULL on failure. FM_NO_MEMORY. */
-fm_status launches_numbers(fm_launch_numbers **numbers, size_t *count,
-                           const fm_result_files *results, const fm_case_row *row,
-                           const char *metric, const char *over, fm_error *err);
+typedef struct fm_launch_list {
+    fm_launch_numbers *items; /* [count]; owned */
+    size_t count;
+} fm_launch_list;
+
+/* Of all launches that have the metric, by number. FM_NO_MEMORY. The caller frees
+ * the items, which are NULL on failure. */
+fm_status launches_numbers(fm_launch_list *list, const fm_result_files *results,
+                           const fm_case_row *row, const char *metric, const char *over,
+                           fm_error *err);
 
 #endif

@@ -44,8 +44,8 @@ static size_t choose_recent(size_t count, double level)
 
 static size_t count_needed(double level)
 {
-    size_t count = 2 * ALARM_RECENT;
-    while (choose_recent(count, level) == 0 && count < 2 * RANK_SUM_VALUES)
+    size_t count = 2 * (size_t)ALARM_RECENT;
+    while (choose_recent(count, level) == 0 && count < 2 * (size_t)RANK_SUM_VALUES)
         count++;
     return count;
 }

@@ -116,19 +116,18 @@ static void bind_numbers(sqlite3_stmt *to, const fm_result_files *results, const
 
 static fm_status record_launches(recorder *to, const fm_case_row *row)
 {
-    fm_launch_numbers *launches;
-    size_t count;
+    fm_launch_list list;
     const sqlite3_int64 measured = sqlite3_last_insert_rowid(to->history->sqlite);
-    fm_status status = launches_numbers(&launches, &count, to->results, row, "frame_ms",
-                                        "floor_frame_ms", to->err);
-    for (size_t i = 0; i < count && status == FM_OK; i++) {
+    fm_status status =
+        launches_numbers(&list, to->results, row, "frame_ms", "floor_frame_ms", to->err);
+    for (size_t i = 0; i < list.count && status == FM_OK; i++) {
         sql_bind_whole(to->launch, ":measured", measured);
-        sql_bind_whole(to->launch, ":launch", launches[i].launch);
-        sql_bind_real(to->launch, ":frame_ms", launches[i].value);
-        sql_bind_real(to->launch, ":floor_frame_ms", launches[i].over);
+        sql_bind_whole(to->launch, ":launch", list.items[i].launch);
+        sql_bind_real(to->launch, ":frame_ms", list.items[i].value);
+        sql_bind_real(to->launch, ":floor_frame_ms", list.items[i].over);
         status = sql_finish(to->history, to->launch, to->err);
     }
-    free(launches);
+    free(list.items);
     return status;
 }
 

@@ -219,25 +219,36 @@ static fm_status read_centre(fm_centre *centre, loader *to, sqlite3_int64 measur
     return status;
 }
 
-static fm_status find_steps(fm_series *series, double level, fm_error *err)
+/* values[], index_of[]: room for all nights. */
+static fm_status find_steps_in(fm_series *series, double *values, size_t *index_of, double level,
+                               fm_error *err)
 {
+    size_t count = 0;
     const fm_steps_desc desc = { .level = level };
-    size_t *index_of = calloc(series->count + 1, sizeof *index_of), count = 0;
-    double *values = calloc(series->count + 1, sizeof *values);
-    fm_status status = FM_OK;
-    series->steps = calloc(series->count + 1, sizeof *series->steps);
-    if (index_of == NULL || values == NULL || series->steps == NULL)
-        status = fm_fail(err, FM_NO_MEMORY, "no memory for %zu nights", series->count);
-    for (size_t i = 0; i < series->count && status == FM_OK; i++) {
+    for (size_t i = 0; i < series->count; i++) {
         if (isnan(series->nights[i].centre.ratio))
             continue;
         index_of[count] = i;
         values[count++] = log(series->nights[i].centre.ratio);
     }
-    if (status == FM_OK && count > 0)
-        status = steps_find(series->steps, &series->step_count, values, count, &desc, err);
+    if (count == 0)
+        return FM_OK;
+    const fm_status status =
+        steps_find(series->steps, &series->step_count, values, count, &desc, err);
     for (size_t i = 0; i < series->step_count && status == FM_OK; i++)
         series->steps[i].index = index_of[series->steps[i].index];
+    return status;
+}
+
+static fm_status find_steps(fm_series *series, double level, fm_error *err)
+{
+    size_t *index_of = calloc(series->count + 1, sizeof *index_of);
+    double *values = calloc(series->count + 1, sizeof *values);
+    series->steps = calloc(series->count + 1, sizeof *series->steps);
+    const fm_status status =
+        index_of != NULL && values != NULL && series->steps != NULL
+            ? find_steps_in(series, values, index_of, level, err)
+            : fm_fail(err, FM_NO_MEMORY, "no memory for %zu nights", series->count);
     free(values);
     free(index_of);
     return status;

@@ -25,13 +25,19 @@ fm_finding *findings_add(fm_night_result *night, fm_finding_kind kind, size_t ca
     return added;
 }
 
-static fm_status add(fm_night_result *night, fm_finding_kind kind, size_t case_index,
-                     const char *what, const char *base, const char *now, const char *since,
-                     fm_error *err)
+/* What grew, or got worse. */
+typedef struct worsening {
+    fm_finding_kind kind;
+    size_t case_index;
+    const char *what, *base, *now, *since;
+} worsening;
+
+static fm_status add(fm_night_result *night, const worsening *found, fm_error *err)
 {
     char text[320];
-    snprintf(text, sizeof text, "%.40s %.63s -> %.63s since %.100s", what, base, now, since);
-    return findings_add(night, kind, case_index, text) != NULL
+    snprintf(text, sizeof text, "%.40s %.63s -> %.63s since %.100s", found->what, found->base,
+             found->now, found->since);
+    return findings_add(night, found->kind, found->case_index, text) != NULL
                ? FM_OK
                : fm_fail(err, FM_NO_MEMORY, "no memory for %zu findings", night->count);
 }
@@ -71,8 +77,10 @@ static fm_status compare_number(fm_night_result *night, size_t index, fm_metric 
         return FM_OK;
     text_from_double(base, before);
     text_from_double(now, row->metric[metric]);
-    return add(night, found, index, fm_metrics[metric].name, base, now,
-               night->cases[index].previous->started, err);
+    return add(night,
+               &(worsening){ found, index, fm_metrics[metric].name, base, now,
+                             night->cases[index].previous->started },
+               err);
 }
 
 static fm_status compare_case(fm_night_result *night, size_t index, fm_error *err)
@@ -92,8 +100,10 @@ static fm_status compare_case(fm_night_result *night, size_t index, fm_error *er
     };
     fm_status status = FM_OK;
     if (is_worse_status(before->status, row->status))
-        status = add(night, FM_FINDING_STATUS, index, "status", before->status, row->status,
-                     before->started, err);
+        status = add(night,
+                     &(worsening){ FM_FINDING_STATUS, index, "status", before->status, row->status,
+                                   before->started },
+                     err);
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0] && status == FM_OK; i++)
         if (row->is_measured)
             status = compare_number(night, index, numbers[i].metric, numbers[i].value, err);
@@ -113,16 +123,16 @@ static fm_status take_change(fm_night_result *night, size_t index, const fm_chan
                              const char *since, fm_error *err)
 {
     double base, now;
-    if (strcmp(change->name, "status") == 0)
-        return is_worse_status(change->base, change->now)
-                   ? add(night, FM_FINDING_STATUS, index, change->name, change->base, change->now,
-                         since, err)
-                   : FM_OK;
-    const fm_finding_kind kind = kind_of(change->name);
-    return kind != FM_FINDING_COUNT && text_to_double(&base, change->base) &&
-                   text_to_double(&now, change->now) && now > base
-               ? add(night, kind, index, change->name, change->base, change->now, since, err)
-               : FM_OK;
+    worsening found = {
+        kind_of(change->name), index, change->name, change->base, change->now, since
+    };
+    bool is_worse = found.kind != FM_FINDING_COUNT && text_to_double(&base, change->base) &&
+                    text_to_double(&now, change->now) && now > base;
+    if (strcmp(change->name, "status") == 0) {
+        found.kind = FM_FINDING_STATUS;
+        is_worse = is_worse_status(change->base, change->now);
+    }
+    return is_worse ? add(night, &found, err) : FM_OK;
 }
 
 fm_status findings_since_baseline(fm_night_result *night, fm_error *err)

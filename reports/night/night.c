@@ -7,6 +7,8 @@
 
 #include "findings.h"
 
+/* So many nights of each case are looked at: steps of 200 take a third of a second a case. */
+enum { NIGHTS = 90 };
 static const double usual_effect = 1.06;
 /* A step is found in three nights, in nine of ten months, if it is so many standard errors of a
  * night (tests/reports/alarm_test.c). */
@@ -105,8 +107,9 @@ fm_status night_judge(fm_night_result *night, const fm_night_desc *desc, fm_erro
     night->cases = calloc(desc->now->count + 1, sizeof *night->cases);
     if (night->cases == NULL)
         return fm_fail(err, FM_NO_MEMORY, "no memory for %zu cases", desc->now->count);
-    fm_status status = history_series(&night->series, desc->history,
-                                      &(fm_series_desc){ .reference = desc->reference }, err);
+    fm_status status =
+        history_series(&night->series, desc->history,
+                       &(fm_series_desc){ .reference = desc->reference, .most = NIGHTS }, err);
     if (status != FM_OK)
         return status;
     for (size_t i = 0; i < desc->now->count; i++)

@@ -188,7 +188,9 @@ static void add_machines(fm_text *page, const fm_run_list *runs)
             is_told = strcmp(runs->items[j].machine, run->machine) == 0;
         if (is_told)
             continue;
-        text_add(page, "<dt>%s</dt><dd>", run->machine);
+        text_add(page, "<dt>");
+        html_add(page, run->machine);
+        text_add(page, "</dt><dd>");
         html_add(page, run->cpu);
         text_add(page, ", ");
         html_add(page, run->cores);

@@ -99,7 +99,8 @@ static const struct argp argp = {
            "Exit codes: 0 quiet; 1 alarm: something is slower, takes more memory, is less right, "
            "or fails and did not; 2 usage or policy error; 3 nothing could be measured; 4 cases "
            "failed in a first night; 5 the world stopped it, or another nightly is at work: the "
-           "same command continues; 8 a damaged history or baseline.",
+           "same command continues; 7 plugins or programs changed while it measured; 8 a damaged "
+           "history or baseline.",
 };
 
 /* Folders of the policy, and what stands over them. */
@@ -181,12 +182,15 @@ static bool copy_arguments(fm_arguments *to, const fm_policy *policy)
 /* A plan of one round says whether the policy can be measured, and how long it may take. */
 static fm_status plan_night(fm_tonight *tonight, const char *root, fm_error *err)
 {
+    char report[FM_PATH_MAX_BYTES]; /* nothing is measured that nobody can judge */
     fm_arguments arguments = { .cli = tonight->cli };
     fm_plan plan = { 0 };
     fm_plugin_list plugins = { 0 };
     fm_night_past past;
     const fm_policy *policy = tonight->policy;
     const char *const specs[] = { policy->spec[0] != '\0' ? policy->spec : NULL, NULL };
+    if (!report_find(report))
+        return fm_fail(err, FM_UNSUPPORTED, "%s", report_missing());
     fm_status status = copy_arguments(&arguments, policy)
                            ? night_past(&past, root, policy->hash, err)
                            : fm_fail(err, FM_NO_MEMORY, "no memory for a policy");

@@ -37,12 +37,13 @@ fm_status night_state_write(const fm_night_state *state, fm_error *err)
     char path[FM_PATH_MAX_BYTES];
     json_t *json = to_json(state);
     char *text = json != NULL ? json_dumps(json, JSON_INDENT(2)) : NULL;
-    fm_status status = text != NULL ? path_join(path, state->folder, "nightly.json", err)
-                                    : fm_fail(err, FM_NO_MEMORY, "%s: no memory", state->folder);
+    json_decref(json);
+    if (text == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "%s: no memory", state->folder);
+    fm_status status = path_join(path, state->folder, "nightly.json", err);
     if (status == FM_OK)
         status = text_write_file(path, text, strlen(text), err);
     free(text);
-    json_decref(json);
     return status;
 }
 

@@ -77,7 +77,7 @@ says 'is refused'
 # Killed, then again: what ended stays.
 "$program" ab kplus-heap@"$work/base" kplus-heap@"$work/build" "${small[@]}" --pairs 40 -o "$work/killed" >/dev/null 2>&1 &
 parent=$!
-for _ in $(seq 600); do
+for _ in $(seq 6000); do # a busy machine needs its time
     [ "$(cat "$work/killed/new/journal.jsonl" 2>/dev/null | grep -c '"event":"end"')" -lt 5 ] || break
     sleep 0.02
 done
