@@ -375,7 +375,7 @@ fm_status history_series(fm_series_list *list, fm_history *history, const fm_ser
         free(to.growing[i].measured);
     free(to.growing);
     free(to.values);
-    if (status == FM_OK)
+    if (status == FM_OK && list->count > 0)
         qsort(list->items, list->count, sizeof *list->items, compare_series);
     return status;
 }

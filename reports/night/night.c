@@ -123,7 +123,8 @@ fm_status night_judge(fm_night_result *night, const fm_night_desc *desc, fm_erro
         status = findings_since_baseline(night, err);
     if (status != FM_OK)
         return status;
-    qsort(night->findings, night->count, sizeof *night->findings, compare_findings);
+    if (night->count > 0)
+        qsort(night->findings, night->count, sizeof *night->findings, compare_findings);
     plan_launches(night);
     count_failures(night);
     return FM_OK;

@@ -7,6 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/state.h"
 #include "base/text.h"
 #include "code/code.h"
 #include "noise.h"
@@ -23,17 +24,10 @@ void noise_fingerprint(char digits[17], const fm_machine *machine)
 
 fm_status noise_path(char path[FM_PATH_MAX_BYTES], const fm_machine *machine, fm_error *err)
 {
-    char digits[17];
-    const char *state = getenv("XDG_STATE_HOME"), *home = getenv("HOME");
-    const bool has_state = state != NULL && state[0] == '/';
-    if (!has_state && (home == NULL || home[0] != '/'))
-        return fm_fail(err, FM_INVALID,
-                       "neither XDG_STATE_HOME nor HOME names a folder for calibrations");
+    char digits[17], name[64];
     noise_fingerprint(digits, machine);
-    const int length = snprintf(path, FM_PATH_MAX_BYTES, "%s%s/fragmark/calibration/%s.json",
-                                has_state ? state : home, has_state ? "" : "/.local/state", digits);
-    return length < FM_PATH_MAX_BYTES ? FM_OK
-                                      : fm_fail(err, FM_INVALID, "%.64s...: too long a path", path);
+    snprintf(name, sizeof name, "calibration/%s.json", digits);
+    return state_path(path, NULL, name, false, err);
 }
 
 static bool read_statistic(ab_noise_statistic *statistic, json_t *json)
