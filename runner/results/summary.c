@@ -54,8 +54,10 @@ static double median_of(const row_state *row, fm_metric metric, uint32_t launch)
 static fm_interval interval_of_frames(const row_state *row, fm_metric metric)
 {
     const size_t count = gather(row, metric, UINT32_MAX);
-    return stats_by_launch(
-        &(fm_samples){ row->values, row->groups, count, row->results->plan->launches });
+    return stats_by_launch(&(fm_samples){ .values = row->values,
+                                          .group_of = row->groups,
+                                          .count = count,
+                                          .group_count = row->results->plan->launches });
 }
 
 static const char *method_version(const row_state *row)
