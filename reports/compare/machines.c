@@ -92,8 +92,10 @@ fm_status machines_compare(fm_machines *machines, const fm_provenance *base,
                            const fm_provenance *now, fm_error *err)
 {
     static const char *const hardware[] = { "cpu", "cores", "memory_bytes" };
-    static const char *const facts[] = { "fragmark", "git_commit", "launches", "frames",
-                                         "warmup",   "validation", "no_timers" };
+    static const char *const facts[] = {
+        "fragmark", "git_commit", "launches",  "frames",
+        "warmup",   "validation", "no_timers", "precision_percent"
+    };
     enum {
         HARDWARE = sizeof hardware / sizeof hardware[0],
         FACTS = sizeof facts / sizeof facts[0]

@@ -168,7 +168,4 @@ fm_status report_expect(const fm_arguments *arguments, const char *const *figure
 /* Why there is no fragmark-report here: the beginning of a sentence. */
 const char *report_missing(void);
 
-/* Seconds that a plan may take; a guess from the number of fragments. */
-double plan_seconds(const fm_plan *plan);
-
 #endif

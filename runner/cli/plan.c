@@ -50,9 +50,10 @@ static double guessed_fragments(const fm_settings *settings)
     return pixels * settings->pixel_density * settings->n * settings->fragment_probability;
 }
 
-/* Measured on two CPU cores with lavapipe: about 25 ns a fragment for a method's store, 7 ns for
- * the floor's, 200 ns to capture and check one; a GPU takes next to nothing. */
-double plan_seconds(const fm_plan *plan)
+/* Seconds that a plan may take with so many launches of each case; a guess from the number of
+ * fragments. Measured on two CPU cores with lavapipe: about 25 ns a fragment for a method's store,
+ * 7 ns for the floor's, 200 ns to capture and check one; a GPU takes next to nothing. */
+static double plan_seconds(const fm_plan *plan, uint32_t (*launches)(const fm_plan *, size_t))
 {
     double seconds = 0.0;
     for (size_t i = 0; i < plan->count; i++) {
@@ -61,8 +62,7 @@ double plan_seconds(const fm_plan *plan)
         const fm_settings *settings = &plan->cases[i].settings;
         const double fragments = guessed_fragments(settings);
         const double frames = (double)settings->frames + settings->warmup;
-        seconds +=
-            plan_case_launches(plan, i) * (1.0 + frames * fragments * 32e-9) + fragments * 200e-9;
+        seconds += launches(plan, i) * (1.0 + frames * fragments * 32e-9) + fragments * 200e-9;
     }
     return seconds;
 }
@@ -99,9 +99,36 @@ static void write_case(FILE *out, const fm_case *planned, const bool *is_told)
     fputc('\n', out);
 }
 
+/* The fewest launches of any case that has the most. */
+static uint32_t least_launches(const fm_plan *plan)
+{
+    uint32_t least = plan->launches;
+    for (size_t i = 0; i < plan->count; i++)
+        if (plan_case_launches(plan, i) == plan->launches)
+            least = plan_case_least_launches(plan, i) < least ? plan_case_least_launches(plan, i)
+                                                              : least;
+    return least;
+}
+
+/* "5 launches", or with a precision "5 to 40 launches"; and how long they take. */
+static void say_range(char launches[48], char duration[72], const fm_plan *plan)
+{
+    char shortest[32], longest[32];
+    const uint32_t least = least_launches(plan);
+    duration_text(shortest, plan_seconds(plan, plan_case_least_launches));
+    duration_text(longest, plan_seconds(plan, plan_case_launches));
+    if (least == plan->launches) {
+        snprintf(launches, 48, "%u launches", plan->launches);
+        snprintf(duration, 72, "%s", longest);
+    } else {
+        snprintf(launches, 48, "%u to %u launches", least, plan->launches);
+        snprintf(duration, 72, "%s to %s", shortest, longest);
+    }
+}
+
 static int write_table(const fm_cli *cli, const fm_plan *plan)
 {
-    char duration[32];
+    char launches[48], duration[72];
     size_t runnable = 0;
     bool *is_told = calloc(fm_key_count, sizeof *is_told);
     if (is_told == NULL)
@@ -113,11 +140,11 @@ static int write_table(const fm_cli *cli, const fm_plan *plan)
         write_case(cli->out, &plan->cases[i], is_told);
     }
     free(is_told);
-    duration_text(duration, plan_seconds(plan));
+    say_range(launches, duration, plan);
     fprintf(cli->talk,
-            "%zu cases, %zu to run: %u launches of %u frames each, seed %llu; about %s on two CPU "
+            "%zu cases, %zu to run: %s of %u frames each, seed %llu; about %s on two CPU "
             "cores (an estimate; a GPU is faster)\n",
-            plan->count, runnable, plan->launches, plan->frames, (unsigned long long)plan->seed,
+            plan->count, runnable, launches, plan->frames, (unsigned long long)plan->seed,
             duration);
     return CLI_DONE;
 }
@@ -156,10 +183,12 @@ static int write_json(const fm_cli *cli, const fm_plan *plan)
     bool is_written =
         fputs("{\n", cli->out) != EOF &&
         write_object(cli->out,
-                     json_pack("{s:i, s:I, s:i, s:i, s:i, s:f}", "schema", 1, "seed",
-                               (json_int_t)plan->seed, "launches", (int)plan->launches, "frames",
+                     json_pack("{s:i, s:I, s:i, s:i, s:i, s:i, s:f, s:f}", "schema", 1, "seed",
+                               (json_int_t)plan->seed, "launches", (int)plan->launches,
+                               "launches_least", (int)least_launches(plan), "frames",
                                (int)plan->frames, "warmup", (int)plan->warmup, "estimated_s",
-                               plan_seconds(plan)),
+                               plan_seconds(plan, plan_case_launches), "estimated_least_s",
+                               plan_seconds(plan, plan_case_least_launches)),
                      JSON_EMBED) &&
         fputs(",\n\"cases\": [", cli->out) != EOF;
     for (size_t i = 0; i < plan->count && is_written; i++)

@@ -269,6 +269,9 @@ const fm_key fm_keys[] = {
       .fallback = "5", .help = "timed frames of a launch" },
     { "warmup", FM_KEY_UINT, FM_SCOPE_RUN, AT(warmup), .low = 0, .high = 100,
       .fallback = "2", .help = "frames before the timed ones" },
+    { "precision", FM_KEY_PERCENT, FM_SCOPE_RUN, AT(precision_percent), .is_quiet = true, .low = 0.01, .high = 100,
+      .fallback = "none", .optional = true, .absent = 0,
+      .help = "launches end, of cases of one scene together, where half of frame_ms's interval is no more" },
 };
 /* clang-format on */
 enum { KEY_COUNT = sizeof fm_keys / sizeof fm_keys[0] };
@@ -325,6 +328,9 @@ void key_domain(char text[FM_TEXT_MAX], const fm_key *key)
     case FM_KEY_UINT:
     case FM_KEY_REAL:
         snprintf(text, FM_TEXT_MAX, "%s..%s", low, high);
+        return;
+    case FM_KEY_PERCENT:
+        snprintf(text, FM_TEXT_MAX, "%s%%..%s%%", low, high);
         return;
     case FM_KEY_UINT64:
         snprintf(text, FM_TEXT_MAX, "%s..%" PRIu64, low, FM_KEY_UINT64_MAX);
