@@ -52,18 +52,14 @@ static double median_of(const row_state *row, fm_metric metric, uint32_t launch)
     return stats_median(row->values, gather(row, metric, launch));
 }
 
-static uint32_t planned_launches(const row_state *row)
-{
-    const fm_plan *plan = row->results->plan;
-    return plan_case_launches(plan, (size_t)(row->measured - plan->cases));
-}
-
 /* Of the row's intervals; 0: the usual one. */
 static double coverage_of(const row_state *row)
 {
-    return row->measured->settings.precision_percent > 0.0
-               ? precision_coverage(planned_launches(row), row->result->done)
-               : 0.0;
+    const fm_plan *plan = row->results->plan;
+    if (row->measured->settings.precision_percent <= 0.0)
+        return 0.0;
+    const uint32_t last = plan_case_launches(plan, (size_t)(row->measured - plan->cases));
+    return precision_coverage(last, row->result->done);
 }
 
 static fm_interval interval_of_frames(const row_state *row, fm_metric metric)
@@ -98,10 +94,8 @@ static void write_precision(char *text, size_t room, const row_state *row)
     const double half = 100.0 * precision_half_width(&frame_ms);
     const bool is_reached = half <= row->measured->settings.precision_percent;
     settings_text(wanted, &row->measured->settings, key_find("precision"));
-    if (isnan(frame_ms.median))
-        snprintf(text, room, "precision %.16s: no times", wanted);
-    else if (isnan(half))
-        snprintf(text, room, "precision %.16s: not reached, one launch has no interval", wanted);
+    if (isnan(half))
+        snprintf(text, room, "precision %.16s: no interval of frame_ms", wanted);
     else
         snprintf(text, room, "precision %.16s: %s, %.3g%% after %u launches", wanted,
                  is_reached ? "reached" : "not reached", half, row->result->done);

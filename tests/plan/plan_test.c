@@ -8,7 +8,6 @@
 #include <unistd.h>
 
 #include <cmocka.h>
-#include <math.h>
 
 #include "base/text.h"
 #include "devices.h"
@@ -149,70 +148,6 @@ static void plan_launches_simulated_cases_once(void **state)
     expect(&with, &request, 2);
     assert_int_equal(plan_case_launches(&with.plan, 0), 3);
     plan_free(&with.plan);
-}
-
-/* Simulated launches all say the same, and have no times. */
-static void plan_with_a_precision_has_a_range_of_launches(void **state)
-{
-    (void)state;
-    fixture with;
-    fixture_create(&with);
-    fm_plan_request request = { .methods = LIST("kb"),
-                                .devices = LIST("tbr", "vulkan"),
-                                .feeds = LIST("frames", "raster"),
-                                .axes = LIST("precision=2%") };
-    expect(&with, &request, 4);
-    assert_int_equal(with.plan.launches, 40);
-    for (size_t i = 0; i < with.plan.count; i++) {
-        const bool is_simulated = strcmp(with.plan.cases[i].feed, "frames") == 0;
-        assert_int_equal(plan_case_launches(&with.plan, i), is_simulated ? 1 : 40);
-        assert_int_equal(plan_case_least_launches(&with.plan, i), is_simulated ? 1 : 5);
-        assert_true((with.plan.cases[i].settings.precision_percent > 0.0) == !is_simulated);
-    }
-    request.axes = LIST("launches=12", "precision=2%");
-    expect(&with, &request, 4);
-    assert_int_equal(with.plan.launches, 12);
-    request.axes = LIST("launches=7", "precision=2%"); /* one look */
-    expect(&with, &request, 4);
-    for (size_t i = 0; i < with.plan.count; i++)
-        assert_int_equal(plan_case_least_launches(&with.plan, i),
-                         plan_case_launches(&with.plan, i));
-    request.axes = LIST("launches=4", "precision=2%");
-    expect_refused(&with, &request,
-                   "launches = 4: with precision it is the most that there may be");
-    request.axes = LIST("launches=4", "precision=none");
-    expect(&with, &request, 4);
-    assert_int_equal(with.plan.launches, 4);
-    plan_free(&with.plan);
-}
-
-/* Who wants a number of launches gets no fewer. */
-static void plans_that_are_merged_are_as_precise_as_any_wants(void **state)
-{
-    (void)state;
-    static const struct {
-        const char *one, *other;
-        uint32_t launches;
-        double precision;
-    } rows[] = {
-        { "precision=2%", "precision=5%", 40, 2.0 },
-        { "precision=2%", "launches=7", 40, 0.0 },
-        { "launches=50", "precision=2%", 50, 0.0 },
-    };
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        fixture with;
-        fm_plan other;
-        fixture_create(&with);
-        expect(&with, &(fm_plan_request){ .methods = LIST("kb"), .axes = LIST(rows[i].other) }, 1);
-        other = with.plan;
-        with.plan = (fm_plan){ 0 };
-        expect(&with, &(fm_plan_request){ .methods = LIST("kb"), .axes = LIST(rows[i].one) }, 1);
-        assert_int_equal(plan_merge(&with.plan, &other, NULL), FM_OK);
-        assert_int_equal(plan_case_launches(&with.plan, 0), rows[i].launches);
-        assert_true(fabs(with.plan.cases[0].settings.precision_percent - rows[i].precision) < 1e-9);
-        plan_free(&other);
-        plan_free(&with.plan);
-    }
 }
 
 static void plan_expands_lists_and_ranges(void **state)
@@ -544,8 +479,6 @@ int main(void)
         cmocka_unit_test(plan_of_nothing_is_every_method_but_controls),
         cmocka_unit_test(plan_tells_a_refused_method_that_is_named),
         cmocka_unit_test(plan_launches_simulated_cases_once),
-        cmocka_unit_test(plan_with_a_precision_has_a_range_of_launches),
-        cmocka_unit_test(plans_that_are_merged_are_as_precise_as_any_wants),
         cmocka_unit_test(plan_expands_lists_and_ranges),
         cmocka_unit_test(plan_crosses_axes_with_the_last_one_fastest),
         cmocka_unit_test(plan_refuses_axes_with_the_nearest_name),
