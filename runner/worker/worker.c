@@ -26,6 +26,8 @@ typedef struct launch_job {
     json_t *answer;
     fm_device *device;
     fm_plugin *method, *floor;
+    const char *mark_path;
+    fm_hook_mark *mark;   /* what of the plugin is running; NULL: it cannot be told */
     fm_method_desc desc;  /* the method, with culling if that is asked for */
     fm_settings settings; /* finished */
     uint32_t feed;
@@ -97,9 +99,12 @@ static bool has_frames(const launch_job *job)
 static fm_status open_plugins(launch_job *job)
 {
     job->is_opening = true;
+    job->mark = hook_mark_open(job->mark_path, job->request->plugin);
     code_add_plugin(&job->code, FM_CODE_OF_METHOD, job->request->plugin);
+    hook_enter(job->mark, FM_HOOK_LOAD);
     fm_status status =
         plugin_open(&job->method, job->request->plugin, job->request->common, &job->error);
+    hook_leave(job->mark, FM_HOOK_LOAD);
     job->is_opening = status != FM_OK;
     if (status != FM_OK || has_frames(job))
         return status;
@@ -212,6 +217,7 @@ static fm_status frames_job(launch_job *job)
         .settings = &job->settings,
         .choices = job->request->choices,
         .choice_count = job->request->choice_count,
+        .mark = job->mark,
         .truth = job->request->truth,
         .image = job->request->image,
         .keep = job->request->keep[KEPT_FRAMES],
@@ -266,12 +272,14 @@ static fm_status measure(launch_job *job)
         .choice_count = job->request->choice_count,
         .fragments = job->truth->fragment_count,
         .fragments_kept = truth_kept(job->truth, places),
+        .mark = job->mark,
     };
     fm_instance_desc floor = method;
     floor.method = job->floor->method;
     floor.folders.method = job->floor->folder;
     floor.folders.owner = FM_CODE_OF_FLOOR;
     floor.choice_count = 0;
+    floor.mark = NULL;
     const fm_measure_desc desc = { .method = &method,
                                    .floor = &floor,
                                    .truth = job->truth,
@@ -387,6 +395,7 @@ static void release(launch_job *job)
     device_close(job->device);
     plugin_close(job->floor);
     plugin_close(job->method);
+    hook_mark_close(job->mark);
     request_free(&job->read);
     code_free(&job->code);
     json_decref(job->answer);
@@ -439,7 +448,9 @@ static int write_answer(const json_t *answer, const char *path)
 
 int worker_main(const char *request_path, const char *answer_path, const fm_device_list *devices)
 {
-    launch_job job = { .devices = devices, .answer = json_object() };
+    char mark_path[FM_PATH_MAX_BYTES];
+    snprintf(mark_path, sizeof mark_path, WORKER_HOOK_FILE, answer_path);
+    launch_job job = { .devices = devices, .answer = json_object(), .mark_path = mark_path };
     job.request = &job.read.request;
     fm_status status = request_read(&job.read, request_path, &job.error);
     job.has_request = status == FM_OK;
