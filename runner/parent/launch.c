@@ -136,7 +136,7 @@ static json_t *result_of_death(const ending *end, const fm_launch_desc *desc)
     } else
         snprintf(how, sizeof how, "exited with status %d and left no result",
                  WEXITSTATUS(wait_status));
-    snprintf(message, sizeof message, "%s%s%s%s%s%s%s%s", how, end->mark[0] != '\0' ? " " : "",
+    snprintf(message, sizeof message, "%s%s%s%s%s%s%s%s", how, end->mark[0] != '\0' ? ", " : "",
              end->mark, input[0] != '\0' ? "; its scene reads " : "", input,
              words[0] != '\0' ? "; its last words: \"" : "", words, words[0] != '\0' ? "\"" : "");
     if (end->process.is_timed_out)

@@ -14,6 +14,7 @@
 #include "model/feeds.h"
 #include "plugin/culling_apply.h"
 #include "plugin/plugin.h"
+#include "process/open_files.h"
 #include "protocol.h"
 #include "technique_job.h"
 #include "verdict.h"
@@ -45,6 +46,7 @@ typedef struct launch_job {
     bool is_truths;   /* the truth file is read */
     bool is_devices;  /* the device cannot be opened, which says nothing of what it supports */
     bool is_floors;   /* the floor, which fragmark brings, is opened */
+    bool is_leaking;  /* the plugin left so many files open that there may be no more */
 } launch_job;
 
 static fm_status read_feed(launch_job *job)
@@ -151,6 +153,8 @@ static bool is_runs_fault(const launch_job *job, fm_status status)
         return false;
     if (!job->has_request || job->is_floors || job->is_devices)
         return true;
+    if (job->is_leaking && strstr(job->error.message, strerror(EMFILE)) != NULL)
+        return false;
     if ((status == FM_IO || job->is_opening) && names_the_world(job->error.message))
         return true;
     if (job->measurement.is_floors)
@@ -162,7 +166,7 @@ static bool is_runs_fault(const launch_job *job, fm_status status)
  * that cannot be had are nothing that a method did wrong. */
 static fm_case_status verdict(const launch_job *job, fm_status status)
 {
-    const bool is_plugins = job->is_opening || job->is_plugins;
+    const bool is_plugins = job->is_opening || job->is_plugins || job->is_leaking;
     if (status != FM_OK && job->is_opening)
         return FM_CASE_PLUGIN_ERROR;
     switch (status) {
@@ -430,6 +434,13 @@ static void note_starved(launch_job *job, fm_case_status word)
     answer_set_starved(job->answer);
 }
 
+static void note_left_open(launch_job *job, uint32_t count)
+{
+    job->is_leaking = job->method != NULL && count > 0;
+    if (job->is_leaking)
+        note(job, "%s left %u files open", job->method->method->id, count);
+}
+
 /* An answer that does not fit is tried once more with the reason alone. */
 static int write_answer(const json_t *answer, const char *path)
 {
@@ -451,6 +462,8 @@ int worker_main(const char *request_path, const char *answer_path, const fm_devi
     char mark_path[FM_PATH_MAX_BYTES];
     snprintf(mark_path, sizeof mark_path, WORKER_HOOK_FILE, answer_path);
     launch_job job = { .devices = devices, .answer = json_object(), .mark_path = mark_path };
+    fm_open_files files;
+    open_files_begin(&files);
     job.request = &job.read.request;
     fm_status status = request_read(&job.read, request_path, &job.error);
     job.has_request = status == FM_OK;
@@ -461,6 +474,7 @@ int worker_main(const char *request_path, const char *answer_path, const fm_devi
                  : job.request->is_device_job ? open_device(&job)
                  : job.request->is_truth_job  ? truth_job(&job)
                                               : measure_job(&job);
+    note_left_open(&job, open_files_left(&files));
     const fm_case_status word = case_status_of(&job, status);
     note_validation(&job, word);
     note_starved(&job, word);
