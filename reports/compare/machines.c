@@ -99,8 +99,10 @@ static bool is_same_day(const char *base, const char *now)
 fm_status machines_compare(fm_machines *machines, const fm_machines_desc *desc, fm_error *err)
 {
     const fm_provenance *base = desc->base->manifest, *now = desc->now->manifest;
-    static const char *const facts[] = { "fragmark", "git_commit", "launches", "frames",
-                                         "warmup",   "validation", "no_timers" };
+    static const char *const facts[] = {
+        "fragmark", "git_commit", "launches",  "frames",
+        "warmup",   "validation", "no_timers", "precision_percent"
+    };
     enum { FACTS = sizeof facts / sizeof facts[0] };
     const fm_hardware here = hardware_of(base), there = hardware_of(now);
     const size_t most = base->machine_count + now->machine_count + 3 * base->device_count +

@@ -192,8 +192,10 @@ static fm_interval interval_of(const metric_sum *sum)
             group_count = frames->launches[i] + 1;
     fm_interval interval = interval_exact(0.0);
     if (frames->count > 0)
-        interval = stats_by_launch(
-            &(fm_samples){ frames->values, frames->launches, frames->count, group_count });
+        interval = stats_by_launch(&(fm_samples){ .values = frames->values,
+                                                  .group_of = frames->launches,
+                                                  .count = frames->count,
+                                                  .group_count = group_count });
     if (!sum->is_timed)
         interval = interval_exact(interval.median);
     if (sum->is_timed_once)

@@ -75,9 +75,36 @@ static void write_case(FILE *out, const fm_case *planned, const bool *is_told)
     fputc('\n', out);
 }
 
+/* The fewest launches of any case that has the most. */
+static uint32_t least_launches(const fm_plan *plan)
+{
+    uint32_t least = plan->launches;
+    for (size_t i = 0; i < plan->count; i++)
+        if (plan_case_launches(plan, i) == plan->launches)
+            least = plan_case_least_launches(plan, i) < least ? plan_case_least_launches(plan, i)
+                                                              : least;
+    return least;
+}
+
+/* "5 launches", or with a precision "5 to 40 launches"; and how long they take. */
+static void say_range(char launches[48], char duration[72], const fm_plan *plan)
+{
+    char shortest[32], longest[32];
+    const uint32_t least = least_launches(plan);
+    duration_text(shortest, plan_least_seconds(plan));
+    duration_text(longest, plan_seconds(plan));
+    if (least == plan->launches) {
+        snprintf(launches, 48, "%u launches", plan->launches);
+        snprintf(duration, 72, "%s", longest);
+    } else {
+        snprintf(launches, 48, "%u to %u launches", least, plan->launches);
+        snprintf(duration, 72, "%s to %s", shortest, longest);
+    }
+}
+
 static int write_table(const fm_cli *cli, const fm_plan *plan)
 {
-    char duration[32];
+    char launches[48], duration[72];
     size_t runnable = 0;
     bool *is_told = calloc(fm_key_count, sizeof *is_told);
     if (is_told == NULL)
@@ -89,15 +116,15 @@ static int write_table(const fm_cli *cli, const fm_plan *plan)
         write_case(cli->out, &plan->cases[i], is_told);
     }
     free(is_told);
-    duration_text(duration, plan_seconds(plan));
+    say_range(launches, duration, plan);
     if (plan->shard.count > 0)
         fprintf(cli->talk, "shard %u of %u, of %zu cases in %zu groups that stay together: ",
                 plan->shard.index, plan->shard.count, plan->shard.case_count,
                 plan->shard.group_count);
     fprintf(cli->talk,
-            "%zu cases, %zu to run: %u launches of %u frames each, seed %llu; about %s on two CPU "
+            "%zu cases, %zu to run: %s of %u frames each, seed %llu; about %s on two CPU "
             "cores (an estimate; a GPU is faster)\n",
-            plan->count, runnable, plan->launches, plan->frames, (unsigned long long)plan->seed,
+            plan->count, runnable, launches, plan->frames, (unsigned long long)plan->seed,
             duration);
     return CLI_DONE;
 }
@@ -136,10 +163,11 @@ static int write_json(const fm_cli *cli, const fm_plan *plan)
     bool is_written =
         fputs("{\n", cli->out) != EOF &&
         write_object(cli->out,
-                     json_pack("{s:i, s:I, s:i, s:i, s:i, s:f}", "schema", 1, "seed",
-                               (json_int_t)plan->seed, "launches", (int)plan->launches, "frames",
+                     json_pack("{s:i, s:I, s:i, s:i, s:i, s:i, s:f, s:f}", "schema", 1, "seed",
+                               (json_int_t)plan->seed, "launches", (int)plan->launches,
+                               "launches_least", (int)least_launches(plan), "frames",
                                (int)plan->frames, "warmup", (int)plan->warmup, "estimated_s",
-                               plan_seconds(plan)),
+                               plan_seconds(plan), "estimated_least_s", plan_least_seconds(plan)),
                      JSON_EMBED) &&
         fputs(",\n\"cases\": [", cli->out) != EOF;
     for (size_t i = 0; i < plan->count && is_written; i++)

@@ -11,6 +11,7 @@
  *   rank_sum.h     are later values above earlier ones? the exact test of two samples
  *   steps.h        since when?
  *   levels.h       many tests in a night, and several looks at one of them
+ *   precision.h    how many launches are enough for a median
  *   binomial.h     k of n: how often really?
  *
  * A pair is two launches of two versions that ran one after the other. A difference is that of the

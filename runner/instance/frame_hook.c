@@ -49,7 +49,10 @@ fm_status frame_hook(fm_next *next, const frame_run *frame, size_t index)
     hook_view shown, before;
     fill_view(&shown, instance);
     memcpy(&before, &shown, sizeof before);
+    hook_mark_pass(instance->desc.mark, pass);
+    hook_enter(instance->desc.mark, FM_HOOK_AFTER);
     *next = instance->method->after(&shown.workload, pass);
+    hook_leave(instance->desc.mark, FM_HOOK_AFTER);
     if (memcmp(&before, &shown, sizeof before) != 0)
         return fm_fail(frame->err, FM_INVALID,
                        "%s: pass '%s': after: wrote to the workload, which is constant", id, pass);

@@ -26,6 +26,7 @@ typedef struct frame_run {
     bool is_recording;
     bool is_in_span;
     bool redo;
+    bool hook_redoes; /* because the hook said so */
     uint32_t gone_on; /* what STAGE_COUNTER_GO_ON was when it was read */
     uint64_t query[FM_MAX_QUERIES];
     fm_error *err;

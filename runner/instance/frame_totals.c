@@ -99,5 +99,8 @@ fm_status frame_after_pass(frame_run *frame, size_t index, fm_next *next)
         instance->method->after == NULL)
         return status;
     status = frame_flush(frame);
-    return status == FM_OK ? frame_hook(next, frame, index) : status;
+    if (status == FM_OK)
+        status = frame_hook(next, frame, index);
+    frame->hook_redoes = status == FM_OK && *next == FM_REDO;
+    return status;
 }

@@ -8,6 +8,7 @@
 #define FM_INSTANCE_H
 
 #include "model/descriptor.h"
+#include "plugin/hook_mark.h"
 #include "stage/stage.h"
 
 typedef struct fm_instance fm_instance;
@@ -24,6 +25,7 @@ typedef struct fm_instance_desc {
     uint32_t capture_slots; /* fragments a pixel that the checked build has room for */
     bool hashes_image;      /* instance_image_hash will be called */
     bool wants_primitive;   /* shaders see fm_primitive, the number of the triangle */
+    fm_hook_mark *mark;     /* told where the method's hook is called; NULL: nobody asks */
 } fm_instance_desc;
 
 /* Pixels whose fragments a checked frame writes down. */

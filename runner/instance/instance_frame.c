@@ -63,6 +63,7 @@ static fm_status combine(frame_run *frame)
 static fm_status run_once(frame_run *frame)
 {
     fm_next next = FM_NEXT;
+    frame->hook_redoes = false;
     fm_status status = start(frame);
     if (status == FM_OK)
         status = frame_range(frame, 0, frame->instance->pass_count - 1, 0, NULL, &next);
@@ -133,8 +134,9 @@ fm_status instance_frame(fm_frame_result *result, fm_instance *instance, const f
     fm_status status = run_once(&frame);
     while (status == FM_OK && frame.redo) {
         if (++result->redos > REDO_MAX)
-            return fm_fail(err, FM_INVALID, "%s: asked for the frame again %d times",
-                           instance->method->id, REDO_MAX);
+            return fm_fail(err, FM_INVALID, "%s: asked for the frame again %d times%s",
+                           instance->method->id, REDO_MAX,
+                           frame.hook_redoes ? "; after: answered FM_REDO (2)" : "");
         status = run_once(&frame);
     }
     result->wall_ns = clock_ns() - started_ns;

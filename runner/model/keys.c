@@ -264,11 +264,14 @@ const fm_key fm_keys[] = {
     { "model", FM_KEY_TEXT, FM_SCOPE_CASE, AT(model), .fallback = "",
       .help = "of the simulated GPU: \"NAME=VALUE ...\", names as in its parameters.yml" },
     { "launches", FM_KEY_UINT, FM_SCOPE_RUN, AT(launches), .low = 1, .high = 1000,
-      .fallback = "5", .help = "processes that measure a case; of one, times have no interval" },
+      .fallback = "5", .help = "processes that measure a case; with precision, at most (then 40); of one, times have no interval" },
     { "frames", FM_KEY_UINT, FM_SCOPE_RUN, AT(frames), .low = 1, .high = 10000,
       .fallback = "5", .help = "timed frames of a launch" },
     { "warmup", FM_KEY_UINT, FM_SCOPE_RUN, AT(warmup), .low = 0, .high = 100,
       .fallback = "2", .help = "frames before the timed ones" },
+    { "precision", FM_KEY_PERCENT, FM_SCOPE_RUN, AT(precision_percent), .is_quiet = true, .low = 0.01, .high = 100,
+      .fallback = "none", .optional = true, .absent = 0,
+      .help = "cases of a scene are launched until half of each frame_ms's interval is no more; looks at 5, 10, 20, ..." },
 };
 /* clang-format on */
 enum { KEY_COUNT = sizeof fm_keys / sizeof fm_keys[0] };
@@ -325,6 +328,9 @@ void key_domain(char text[FM_TEXT_MAX], const fm_key *key)
     case FM_KEY_UINT:
     case FM_KEY_REAL:
         snprintf(text, FM_TEXT_MAX, "%s..%s", low, high);
+        return;
+    case FM_KEY_PERCENT:
+        snprintf(text, FM_TEXT_MAX, "%s%%..%s%%", low, high);
         return;
     case FM_KEY_UINT64:
         snprintf(text, FM_TEXT_MAX, "%s..%" PRIu64, low, FM_KEY_UINT64_MAX);

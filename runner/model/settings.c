@@ -79,6 +79,24 @@ static fm_status set_real(fm_settings *settings, const fm_key *key, const char *
     return FM_OK;
 }
 
+static fm_status set_percent(fm_settings *settings, const fm_key *key, const char *text,
+                             fm_error *err)
+{
+    double value = key->absent;
+    char digits[FM_TEXT_MAX];
+    const size_t length = strlen(text);
+    const bool is_absent = key->optional && strcmp(text, "none") == 0;
+    const bool has_sign = length > 0 && length < sizeof digits && text[length - 1] == '%';
+    if (has_sign) {
+        memcpy(digits, text, length);
+        digits[length - 1] = '\0';
+    }
+    if (!is_absent && !(has_sign && real_in_range(&value, key, digits)))
+        return illegal(key, text, err);
+    memcpy(field(settings, key), &value, sizeof value);
+    return FM_OK;
+}
+
 static fm_status set_vector(fm_settings *settings, const fm_key *key, const char *text,
                             fm_error *err)
 {
@@ -133,6 +151,8 @@ fm_status settings_set(fm_settings *settings, const fm_key *key, const char *tex
         return set_uint(settings, key, text, err);
     case FM_KEY_REAL:
         return set_real(settings, key, text, err);
+    case FM_KEY_PERCENT:
+        return set_percent(settings, key, text, err);
     case FM_KEY_VECTOR:
         return set_vector(settings, key, text, err);
     case FM_KEY_ENUM:
@@ -151,6 +171,18 @@ static void uint_text(char text[FM_PATH_MAX_BYTES], const fm_settings *settings,
         strcpy(text, "none");
     else
         snprintf(text, FM_PATH_MAX_BYTES, "%u", value);
+}
+
+static void percent_text(char text[FM_PATH_MAX_BYTES], const fm_settings *settings,
+                         const fm_key *key)
+{
+    double value = 0;
+    memcpy(&value, const_field(settings, key), sizeof value);
+    text_from_double(text, value);
+    if (key->optional && value <= key->absent)
+        strcpy(text, "none");
+    else
+        strcat(text, "%");
 }
 
 static void vector_text(char text[FM_PATH_MAX_BYTES], const fm_settings *settings,
@@ -180,6 +212,9 @@ void settings_text(char text[FM_PATH_MAX_BYTES], const fm_settings *settings, co
     case FM_KEY_REAL:
         memcpy(&real, const_field(settings, key), sizeof real);
         text_from_double(text, real);
+        return;
+    case FM_KEY_PERCENT:
+        percent_text(text, settings, key);
         return;
     case FM_KEY_VECTOR:
         vector_text(text, settings, key);

@@ -202,24 +202,26 @@ typedef struct fm_settings {
     fm_accumulate accumulate;
     fm_composite composite;
     uint32_t launches, frames, warmup;
+    double precision_percent; /* of frame_ms: decide/precision.h; 0: launches are a fixed number */
 } fm_settings;
 
 /* JSON's integers have a sign. */
 #define FM_KEY_UINT64_MAX ((uint64_t)INT64_MAX)
 
 typedef enum fm_key_type {
-    FM_KEY_UINT,   /* uint32_t */
-    FM_KEY_UINT64, /* uint64_t, FM_KEY_UINT64_MAX at most */
-    FM_KEY_REAL,   /* double */
-    FM_KEY_VECTOR, /* double[3], "x y z" or a YAML sequence */
-    FM_KEY_ENUM,   /* int-sized enum, by the names in `values` */
-    FM_KEY_TEXT,   /* const char *, of text_shared; shorter than FM_PATH_MAX_BYTES */
+    FM_KEY_UINT,    /* uint32_t */
+    FM_KEY_UINT64,  /* uint64_t, FM_KEY_UINT64_MAX at most */
+    FM_KEY_REAL,    /* double */
+    FM_KEY_PERCENT, /* double, written with its sign: "2%" */
+    FM_KEY_VECTOR,  /* double[3], "x y z" or a YAML sequence */
+    FM_KEY_ENUM,    /* int-sized enum, by the names in `values` */
+    FM_KEY_TEXT,    /* const char *, of text_shared; shorter than FM_PATH_MAX_BYTES */
 } fm_key_type;
 
 typedef enum fm_key_scope {
     FM_SCOPE_SCENE, /* legal in scene files, specs and -a; part of a scene's hash */
     FM_SCOPE_CASE,  /* specs and -a; makes different cases */
-    FM_SCOPE_RUN,   /* specs and -a; one value a run: launches, frames, warmup */
+    FM_SCOPE_RUN,   /* specs and -a; one value a run: how often a case is measured */
 } fm_key_scope;
 
 typedef struct fm_key {
@@ -234,7 +236,7 @@ typedef struct fm_key {
     const char *unit;    /* "px", "" */
     const char *help;    /* one line */
     uint32_t generators; /* scene keys: bit g: generator g reads it; 0: all do */
-    bool optional;       /* FM_KEY_UINT: "none" is a value too, kept as `absent` */
+    bool optional;       /* FM_KEY_UINT, FM_KEY_PERCENT: "none" is a value too, kept as `absent` */
     uint32_t absent;
     const char *with;   /* case keys: changes nothing while this other key is at its default */
     bool is_quiet;      /* at its default it is not part of a case's id, or of a scene's hash, which

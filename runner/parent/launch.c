@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "base/text.h"
+#include "plugin/hook_mark.h"
 #include "process/process.h"
 #include "results/answer_check.h"
 #include "worker/protocol.h"
@@ -19,10 +20,21 @@ static const size_t result_max_bytes = (size_t)256 << 20;
 /* A signal to all of us may reach the worker first; ours is then on its way. */
 static const double stop_signal_patience_s = 0.5;
 
+/* Where the worker was when it ended, of those that a plugin has: hook_mark.h. The file is gone. */
+static bool take_mark(char told[HOOK_MARK_TOLD_BYTES], const fm_launch_desc *desc)
+{
+    char path[FM_PATH_MAX_BYTES];
+    snprintf(path, sizeof path, WORKER_HOOK_FILE, desc->result);
+    const bool is_told = hook_mark_read(told, path);
+    unlink(path);
+    return is_told;
+}
+
 /* How a launch ended, beside what is known of every process. */
 typedef struct ending {
     fm_process_end process;
-    uint64_t oom_kills; /* of the whole machine, meanwhile */
+    uint64_t oom_kills;              /* of the whole machine, meanwhile */
+    char mark[HOOK_MARK_TOLD_BYTES]; /* "": in no hook */
 } ending;
 
 /* The end of what a worker said, on one line; "" when it was silent. */
@@ -112,7 +124,7 @@ static const char *limit_that_ended(const ending *end)
 static json_t *result_of_death(const ending *end, const fm_launch_desc *desc)
 {
     char words[LOG_TAIL_BYTES + 1], how[128],
-        message[sizeof words + sizeof how + FM_PATH_MAX_BYTES + 64];
+        message[sizeof words + sizeof how + FM_PATH_MAX_BYTES + HOOK_MARK_TOLD_BYTES + 64];
     const char *input = desc->input != NULL ? desc->input : "";
     const int wait_status = end->process.wait_status;
     log_tail(words, end->process.words);
@@ -124,8 +136,8 @@ static json_t *result_of_death(const ending *end, const fm_launch_desc *desc)
     } else
         snprintf(how, sizeof how, "exited with status %d and left no result",
                  WEXITSTATUS(wait_status));
-    snprintf(message, sizeof message, "%s%s%s%s%s%s", how,
-             input[0] != '\0' ? "; its scene reads " : "", input,
+    snprintf(message, sizeof message, "%s%s%s%s%s%s%s%s", how, end->mark[0] != '\0' ? ", " : "",
+             end->mark, input[0] != '\0' ? "; its scene reads " : "", input,
              words[0] != '\0' ? "; its last words: \"" : "", words, words[0] != '\0' ? "\"" : "");
     if (end->process.is_timed_out)
         return answer_make(FM_CASE_TIMEOUT, FM_REASON_NONE, message);
@@ -216,10 +228,13 @@ static fm_status run_process(ending *end, const fm_stop_signals *signals,
         .context = desc->context,
     };
     const uint64_t oom_kills = count_oom_kills();
+    (void)take_mark(end->mark, desc); /* of a parent that was killed */
     if (unlink(desc->result) != 0 && errno != ENOENT)
         return fm_fail(err, FM_IO, "%s: %s", desc->result, strerror(errno));
     const fm_status status = process_run(&end->process, signals, &process, err);
     end->oom_kills = count_oom_kills() - oom_kills;
+    if (!take_mark(end->mark, desc))
+        end->mark[0] = '\0';
     return status;
 }
 

@@ -1,5 +1,6 @@
 #include "manifest.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -171,6 +172,15 @@ static json_t *shard_json(const fm_shard *shard)
                            (json_int_t)shard->case_count, "reference", shard->reference);
 }
 
+/* The widest that a case may stay; NULL: all are launched a fixed number of times. */
+static json_t *precision_json(const fm_plan *plan)
+{
+    double percent = 0.0;
+    for (size_t i = 0; i < plan->count; i++)
+        percent = fmax(percent, plan->cases[i].settings.precision_percent);
+    return percent > 0.0 ? json_real(percent) : NULL;
+}
+
 static json_t *manifest_json(const fm_manifest_desc *desc)
 {
     const fm_results *results = desc->results;
@@ -182,7 +192,7 @@ static json_t *manifest_json(const fm_manifest_desc *desc)
     strftime(ended, sizeof ended, "%Y-%m-%dT%H:%M:%SZ", &utc);
     return json_pack(
         "{s:i, s:s, s:s, s:s, s:o?, s:I, s:i, s:i, s:i, s:b, s:b, s:s, s:s?, s:o, s:o, s:o, s:o, "
-        "s:o, s:o, s:O?, s:o, s:o*}",
+        "s:o, s:o, s:O?, s:o, s:o*, s:o*}",
         "schema", 1, "fragmark", FM_VERSION, "git_commit", FM_GIT_COMMIT, "run_id", results->run_id,
         "command", desc->run->command != NULL ? text_json(desc->run->command) : NULL, "seed",
         (json_int_t)plan->seed, "launches", (int)plan->launches, "frames", (int)plan->frames,
@@ -191,7 +201,7 @@ static json_t *manifest_json(const fm_manifest_desc *desc)
         "figures", figures_json(desc->run->figures), "machine", machine_json(results), "devices",
         devices_json(results), "methods", methods_json(results), "scenes", scenes_json(results),
         "modelled", modelled_json(results), "meshes", results->meshes, "codes", codes_json(results),
-        "shard", shard_json(&plan->shard));
+        "shard", shard_json(&plan->shard), "precision_percent", precision_json(plan));
 }
 
 fm_status manifest_write(const fm_manifest_desc *desc, fm_error *err)

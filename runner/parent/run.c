@@ -37,9 +37,10 @@ static fm_status run_round(run_state *run, uint32_t launch, fm_error *err)
 {
     fm_status status = FM_OK;
     shuffle(run, launch);
+    status = run_look(run, launch, err);
     for (size_t i = 0; i < run->plan->count && status == FM_OK && !should_stop(run); i++) {
         const size_t index = run->order[i];
-        if (launch >= plan_case_launches(run->plan, index))
+        if (launch >= run->results->cases[index].wanted)
             continue;
         if (run_is_pending(run, index) && !run->results->cases[index].launches[launch].is_done)
             status = run_measure(run, index, launch, err);
@@ -65,7 +66,7 @@ static void count_launches(run_state *run)
     for (size_t i = 0; i < run->plan->count; i++) {
         if (run->plan->cases[i].skip != NULL)
             continue;
-        run->progress.total += plan_case_launches(run->plan, i);
+        run->progress.total += run->results->cases[i].wanted;
         run->progress.done += run->results->cases[i].done;
     }
 }
@@ -262,6 +263,7 @@ static void free_run(run_state *run)
     codes_free(&run->codes);
     json_decref(run->drivers);
     truth_jobs_free(&run->truths);
+    run_looks_free(&run->looks);
     text_index_free(&run->ids);
     free(run->order);
     free(run);

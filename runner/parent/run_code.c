@@ -61,6 +61,10 @@ static fm_status hear_order(const hearing *all, size_t row, uint32_t launch, fm_
         wrong = *place != BEGUN ? "stops and had not begun" : NULL;
         *place = NOT_BEGUN;
         break;
+    case FM_JOURNAL_MORE: /* replayed together with the case's group */
+    case FM_JOURNAL_ENOUGH:
+        wrong = *place != NOT_BEGUN ? "is decided on and had begun" : NULL;
+        break;
     case FM_JOURNAL_FORGET:
         memset(&all->places[row * launches], NOT_BEGUN, launches);
         break;

@@ -4,6 +4,7 @@
  *   run_attempt.c a worker, asked again where it died
  *   run_code.c    whether rows and truths were made by the code that is here now
  *   run_range.c   what all images of a case reach, over its launches
+ *   run_look.c    whether cases that are compared were launched often enough
  *   run_step.c    one launch, or the capture of one truth, from request to row
  *   run_resume.c  what an earlier run left, from its journal
  *   run.c         a run: what is left of it, its rounds, its end */
@@ -19,6 +20,22 @@
 #include "truth_jobs.h"
 #include "worker/protocol.h"
 
+/* Cases that charts compare, which are launched equally often: of one scene, device and feed. */
+typedef struct run_look_group {
+    uint32_t last;    /* launches at the last look */
+    uint32_t decided; /* at the latest one at which it was decided; 0: none */
+    bool has_enough;  /* there */
+    double precision_percent;
+} run_look_group;
+
+typedef struct run_looks {
+    run_look_group *groups; /* [count] */
+    size_t count;
+    size_t *of_case; /* [plan->count]; RUN_NO_GROUP: its launches are a fixed number */
+    uint32_t *told;  /* [plan->count]: the latest look that the journal has a line of for it */
+} run_looks;
+#define RUN_NO_GROUP SIZE_MAX
+
 typedef struct fm_open_run run_state;
 struct fm_open_run {
     const fm_plan *plan;
@@ -27,6 +44,7 @@ struct fm_open_run {
     fm_journal *journal;
     fm_results *results;
     fm_truth_jobs truths;
+    run_looks looks;
     fm_text_index ids; /* of the plan's cases */
     fm_stop_signals signals;
     fm_codes codes;   /* of the journal, as it was found; forgets of what it is to forget */
@@ -124,6 +142,22 @@ fm_status run_range_path(char path[FM_PATH_MAX_BYTES], const run_state *run, siz
  * the launch's own. FM_IO. */
 fm_status run_take_range(const run_state *run, size_t case_index, uint32_t launch, bool is_counted,
                          fm_error *err);
+
+/* run_look.c */
+/* The groups, of which nothing is decided. After truth_jobs_create. FM_NO_MEMORY. */
+fm_status run_looks_create(run_state *run, fm_error *err);
+void run_looks_free(run_looks *looks);
+/* Takes a decision of an earlier process. FM_INVALID: there is no such look, or its group decided
+ * otherwise. */
+fm_status run_look_replay(run_state *run, size_t case_index, uint32_t launch, bool is_enough,
+                          fm_error *err);
+/* FM_INVALID: the group of the case had enough before that launch. */
+fm_status run_look_allows(const run_state *run, size_t case_index, uint32_t launch, fm_error *err);
+/* What was decided, once all of the journal is known: no more launches where there were enough. */
+void run_looks_apply(run_state *run);
+/* Before a round: decides for the groups that have a look after so many launches, and writes it
+ * into the journal before anything is launched by it. FM_IO, FM_NO_MEMORY. */
+fm_status run_look(run_state *run, uint32_t launch, fm_error *err);
 
 /* run_step.c */
 /* The case is to be launched, and not finished. */

@@ -11,12 +11,17 @@ static fm_status replay_event(run_state *run, fm_journal_event event, size_t i, 
     switch (event) {
     case FM_JOURNAL_BEGIN: /* what began and has no end is measured again: nobody is to blame */
     case FM_JOURNAL_STOP:
-        return FM_OK;
+        return run_look_allows(run, i, launch, err);
+    case FM_JOURNAL_MORE:
+    case FM_JOURNAL_ENOUGH:
+        return run_look_replay(run, i, launch, event == FM_JOURNAL_ENOUGH, err);
     case FM_JOURNAL_DIED:
         free(state->death);
         state->death = strdup(answer_message(result));
         return state->death != NULL ? FM_OK : fm_fail(err, FM_NO_MEMORY, "no memory for a death");
     case FM_JOURNAL_END:
+        if (run_look_allows(run, i, launch, err) != FM_OK)
+            return FM_INVALID;
         results_take_mesh(run->results, result);
         return results_add(run->results, i, launch, result, err);
     case FM_JOURNAL_FORGET:
@@ -47,7 +52,11 @@ static fm_status read_results(run_state *run, fm_error *err)
     fm_status status = results_create(&run->results, run->plan, run->plugins, run->desc->directory,
                                       journal_run_id(run->journal), err);
     if (status == FM_OK)
+        status = run_looks_create(run, err);
+    if (status == FM_OK)
         status = journal_replay(run->journal, &reader, &run->is_damaged, err);
+    if (status == FM_OK)
+        run_looks_apply(run);
     return status;
 }
 

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "decide/precision.h"
 #include "model/feeds.h"
 #include "plan_case.h"
 #include "scene/scene_file.h"
@@ -281,6 +282,25 @@ static fm_status check_sweep(const fm_chosen *chosen, const fm_sweep *sweep, fm_
     return FM_OK;
 }
 
+/* Which ends before the first look could be. */
+static fm_status check_precision(const fm_chosen *chosen, fm_error *err)
+{
+    const fm_sweep *precision = selection_find(&chosen->selection, "precision");
+    const fm_sweep *launches = selection_find(&chosen->selection, "launches");
+    fm_settings settings;
+    settings_default(&settings);
+    if (precision == NULL || launches == NULL)
+        return FM_OK;
+    settings_set(&settings, precision->key, precision->values.items[0], NULL);
+    settings_set(&settings, launches->key, launches->values.items[0], NULL);
+    if (settings.precision_percent <= 0.0 || settings.launches >= PRECISION_FIRST)
+        return FM_OK;
+    return fm_fail(err, FM_INVALID,
+                   "%s: launches = %u: with precision it is the most that there may be, and the "
+                   "first look is at %d",
+                   launches->origin, settings.launches, PRECISION_FIRST);
+}
+
 /* The feed of runs that name none. */
 static const char *usual_feed(const fm_chosen *chosen)
 {
@@ -305,6 +325,8 @@ static fm_status look_up(fm_chosen *chosen, const fm_device_list *known_devices,
         status = find_scenes(chosen, err);
     for (size_t i = 0; status == FM_OK && i < chosen->selection.sweep_count; i++)
         status = check_sweep(chosen, &chosen->selection.sweeps[i], err);
+    if (status == FM_OK)
+        status = check_precision(chosen, err);
     return status;
 }
 

@@ -9,5 +9,7 @@
 double plan_case_seconds(const fm_plan *plan, size_t index);
 /* Of all cases. */
 double plan_seconds(const fm_plan *plan);
+/* The same if each is precise enough after the fewest launches (key precision). */
+double plan_least_seconds(const fm_plan *plan);
 
 #endif

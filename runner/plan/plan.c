@@ -1,5 +1,6 @@
 #include "plan.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,6 +8,7 @@
 
 #include "base/text_index.h"
 #include "chosen.h"
+#include "decide/precision.h"
 #include "plan_case.h"
 
 /* Everything looked up, and the cases so far. */
@@ -141,7 +143,10 @@ static void fill_run(fm_plan *plan, const fm_selection *selection)
             settings_set(&settings, sweep->key, sweep->values.items[0], NULL);
     }
     plan->seed = settings.seed;
-    plan->launches = settings.launches;
+    const bool is_adaptive = settings.precision_percent > 0.0;
+    plan->launches = is_adaptive && selection_find(selection, "launches") == NULL
+                         ? PRECISION_LAST
+                         : settings.launches;
     plan->frames = settings.frames;
     plan->warmup = settings.warmup;
 }
@@ -192,6 +197,16 @@ uint32_t plan_case_launches(const fm_plan *plan, size_t index)
     return own > 0 && own < plan->launches ? own : plan->launches;
 }
 
+uint32_t plan_case_least_launches(const fm_plan *plan, size_t index)
+{
+    fm_precision_looks looks;
+    const uint32_t most = plan_case_launches(plan, index);
+    if (plan->cases[index].settings.precision_percent <= 0.0 || most == 0)
+        return most;
+    precision_looks(&looks, most);
+    return looks.launches[0];
+}
+
 void plan_free(fm_plan *plan)
 {
     for (size_t i = 0; i < plan->count; i++)
@@ -214,8 +229,11 @@ void plan_hash(char hash[17], const fm_plan *plan, bool validation, bool no_time
     XXH3_64bits_update(state, numbers, sizeof numbers);
     for (size_t i = 0; i < plan->count; i++) {
         const uint32_t launches = plan_case_launches(plan, i);
+        const double precision = plan->cases[i].settings.precision_percent;
         XXH3_64bits_update(state, plan->cases[i].id, strlen(plan->cases[i].id) + 1);
         XXH3_64bits_update(state, &launches, sizeof launches);
+        if (precision > 0.0)
+            XXH3_64bits_update(state, &precision, sizeof precision);
     }
     if (plan->shard.count > 0) {
         XXH3_64bits_update(state, shard, sizeof shard);
@@ -238,9 +256,11 @@ static uint32_t larger(uint32_t a, uint32_t b)
     return a > b ? a : b;
 }
 
-/* A case that several specs want is measured as often as any of them wants it. */
+/* A case that several specs want is measured as often as any of them wants it: until it is as
+ * precise as each wants, or, if one wants a number of launches, the larger number. */
 static void take_most(fm_settings *settings, const fm_settings *more)
 {
+    settings->precision_percent = fmin(settings->precision_percent, more->precision_percent);
     settings->launches = larger(settings->launches, more->launches);
     settings->frames = larger(settings->frames, more->frames);
     settings->warmup = larger(settings->warmup, more->warmup);

@@ -101,7 +101,10 @@ void plan_hash(char hash[17], const fm_plan *plan, bool validation, bool no_time
 /* Adds the id of each case, with its place in the plan. false: no memory. */
 bool plan_index_ids(fm_text_index *ids, const fm_plan *plan);
 /* How often a case is launched: as often as the plan says, but once if it is simulated and nobody
- * asked for more, since all launches of it would say the same. */
+ * asked for more, since all launches of it would say the same. With a precision it is how often at
+ * most; the run decides, at the looks of decide/precision.h. */
 uint32_t plan_case_launches(const fm_plan *plan, size_t index);
+/* How often at least: until the first look where there is a precision, else the same. */
+uint32_t plan_case_least_launches(const fm_plan *plan, size_t index);
 
 #endif

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <xxhash.h>
 
+#include "decide/precision.h"
 #include "model/feeds.h"
 #include "plugin/culling_apply.h"
 
@@ -314,15 +315,27 @@ static void make_id(fm_case *made, const fm_plan_point *point)
     snprintf(made->id, sizeof made->id, "%016llx", (unsigned long long)mixed);
 }
 
+/* Simulated launches all say the same: one, unless somebody wants more, and none for precision. */
+static void fill_launches(fm_case *made, const fm_plan_point *point)
+{
+    const bool is_simulated = strcmp(point->feed, feed_name(FM_FEED_FRAMES)) == 0;
+    const bool is_adaptive = made->settings.precision_percent > 0.0;
+    const bool is_given = case_is_given(made, key_find("launches"));
+    if (is_simulated && (is_adaptive || !is_given))
+        made->settings.launches = 1;
+    else if (is_adaptive && !is_given)
+        made->settings.launches = PRECISION_LAST;
+    if (is_simulated)
+        made->settings.precision_percent = 0.0;
+}
+
 static fm_status make_case(fm_case *made, const fm_plan_point *point, fm_error *err)
 {
     fm_status status = make_settings(&made->settings, point, err);
     if (status != FM_OK)
         return status;
     mark_given(made, point);
-    if (strcmp(point->feed, feed_name(FM_FEED_FRAMES)) == 0 &&
-        !case_is_given(made, key_find("launches")))
-        made->settings.launches = 1;
+    fill_launches(made, point);
     snprintf(made->method, sizeof made->method, "%s", point->entry->id);
     snprintf(made->scene, sizeof made->scene, "%s", point->scene);
     snprintf(made->device, sizeof made->device, "%s", point->device);

@@ -23,8 +23,9 @@ struct fm_journal {
 };
 
 static const char *const event_name[] = {
-    [FM_JOURNAL_BEGIN] = "begin", [FM_JOURNAL_END] = "end",       [FM_JOURNAL_DIED] = "died",
-    [FM_JOURNAL_STOP] = "stop",   [FM_JOURNAL_FORGET] = "forget",
+    [FM_JOURNAL_BEGIN] = "begin",   [FM_JOURNAL_END] = "end",   [FM_JOURNAL_DIED] = "died",
+    [FM_JOURNAL_STOP] = "stop",     [FM_JOURNAL_MORE] = "more", [FM_JOURNAL_ENOUGH] = "enough",
+    [FM_JOURNAL_FORGET] = "forget",
 };
 _Static_assert(sizeof event_name / sizeof event_name[0] == FM_JOURNAL_EVENT_COUNT, "one each");
 

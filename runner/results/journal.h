@@ -5,6 +5,8 @@
  *   {"event":"end","case":ID,"launch":0,"result":{...}}      after it
  *   {"event":"died","case":ID,"launch":0,"result":{...}}     its worker died the first time: how
  *   {"event":"stop","case":ID,"launch":0}                    it was stopped: it did not finish
+ *   {"event":"more","case":ID,"launch":10}                   before it: its times were not precise
+ *   {"event":"enough","case":ID,"launch":10}                 they were: there is no such launch
  *   {"event":"forget","case":ID}                             what was measured of it so far is void
  * The file is locked while it is open, so that two runs cannot share a directory. */
 #ifndef FM_JOURNAL_H
@@ -23,6 +25,8 @@ typedef enum fm_journal_event {
     FM_JOURNAL_END,
     FM_JOURNAL_DIED,
     FM_JOURNAL_STOP,
+    FM_JOURNAL_MORE, /* decisions at a look: parent/run_look.c */
+    FM_JOURNAL_ENOUGH,
     FM_JOURNAL_FORGET, /* of a case: its launch is 0 */
     FM_JOURNAL_EVENT_COUNT
 } fm_journal_event;

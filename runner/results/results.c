@@ -43,6 +43,7 @@ static fm_status create_cases(fm_results *results, fm_error *err)
         results->cases[i].launches = calloc(plan->launches, sizeof(fm_launch_state));
         if (results->cases[i].launches == NULL)
             return fm_fail(err, FM_NO_MEMORY, "no memory for %u launches", plan->launches);
+        results->cases[i].wanted = plan_case_launches(plan, i);
         const fm_case *planned = &plan->cases[i];
         if (planned->skip != NULL) {
             results->cases[i].status = planned->skip_status;
@@ -402,11 +403,18 @@ fm_status results_add(fm_results *results, size_t case_index, uint32_t launch, c
     return status;
 }
 
+void results_want(fm_results *results, size_t case_index, uint32_t launches)
+{
+    fm_case_result *kept = &results->cases[case_index];
+    kept->wanted = launches;
+    free(kept->row); /* which says whether the case is finished */
+    kept->row = NULL;
+}
+
 bool results_is_finished(const fm_results *results, size_t case_index)
 {
     const fm_case_result *kept = &results->cases[case_index];
-    return kept->is_enough || kept->done == plan_case_launches(results->plan, case_index) ||
-           !case_status_continues(kept->status);
+    return kept->is_enough || kept->done >= kept->wanted || !case_status_continues(kept->status);
 }
 
 static fm_status write_summary(fm_results *results, bool is_end, fm_error *err)

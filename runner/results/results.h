@@ -36,6 +36,7 @@ typedef struct fm_case_result {
     fm_launch_state *launches; /* [plan->launches] */
     uint32_t done;             /* launches that ended */
     bool is_enough;            /* whoever chooses the launches wants no more of them */
+    uint32_t wanted;           /* launches after which it is finished */
     uint64_t *images;          /* [image_count]: hashes of different images, of all timed frames */
     size_t image_count;
     fm_kept_sample *samples;
@@ -80,6 +81,9 @@ fm_status results_add(fm_results *results, size_t case_index, uint32_t launch, c
 /* Keeps what an answer says of a mesh. True: it is the first to say it of this file. */
 bool results_take_mesh(fm_results *results, const json_t *answer);
 
+/* So many launches of the case are enough: fewer than were planned. */
+void results_want(fm_results *results, size_t case_index, uint32_t launches);
+
 /* No further launch of this case is wanted. */
 bool results_is_finished(const fm_results *results, size_t case_index);
 
@@ -104,5 +108,9 @@ void summary_header(fm_text *text);
 void summary_row(fm_text *text, const fm_results *results, size_t case_index);
 /* Column `noisy` of that row: noise.h. */
 void summary_noise(fm_text *text, const fm_results *results, size_t case_index);
+/* How far the row's frame_ms is known: half of its interval over it. NAN: there is no interval;
+ * *has_times: whether a frame has a time at all. FM_NO_MEMORY. */
+fm_status summary_half_width(double *half_width, bool *has_times, const fm_results *results,
+                             size_t case_index, fm_error *err);
 
 #endif

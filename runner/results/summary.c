@@ -5,6 +5,7 @@
 
 #include "base/csv.h"
 #include "base/stats.h"
+#include "decide/precision.h"
 #include "model/columns.h"
 #include "noise.h"
 #include "results.h"
@@ -51,11 +52,24 @@ static double median_of(const row_state *row, fm_metric metric, uint32_t launch)
     return stats_median(row->values, gather(row, metric, launch));
 }
 
+/* Of the row's intervals; 0: the usual one. */
+static double coverage_of(const row_state *row)
+{
+    const fm_plan *plan = row->results->plan;
+    if (row->measured->settings.precision_percent <= 0.0)
+        return 0.0;
+    const uint32_t last = plan_case_launches(plan, (size_t)(row->measured - plan->cases));
+    return precision_coverage(last, row->result->done);
+}
+
 static fm_interval interval_of_frames(const row_state *row, fm_metric metric)
 {
     const size_t count = gather(row, metric, UINT32_MAX);
-    return stats_by_launch(
-        &(fm_samples){ row->values, row->groups, count, row->results->plan->launches });
+    return stats_by_launch(&(fm_samples){ .values = row->values,
+                                          .group_of = row->groups,
+                                          .count = count,
+                                          .group_count = row->results->plan->launches,
+                                          .coverage = coverage_of(row) });
 }
 
 static const char *method_version(const row_state *row)
@@ -72,13 +86,26 @@ static void add_part(fm_text *message, const char *part)
         text_add(message, "%s%s", message->length > 0 ? "; " : "", part);
 }
 
+/* "precision 2%: reached, 1.4% after 10 launches" */
+static void write_precision(char *text, size_t room, const row_state *row)
+{
+    char wanted[FM_PATH_MAX_BYTES];
+    const fm_interval frame_ms = interval_of_frames(row, FM_METRIC_FRAME_MS);
+    const double half = 100.0 * precision_half_width(&frame_ms);
+    const bool is_reached = half <= row->measured->settings.precision_percent;
+    settings_text(wanted, &row->measured->settings, key_find("precision"));
+    if (isnan(half))
+        snprintf(text, room, "precision %.16s: no interval of frame_ms", wanted);
+    else
+        snprintf(text, room, "precision %.16s: %s, %.3g%% after %u launches", wanted,
+                 is_reached ? "reached" : "not reached", half, row->result->done);
+}
+
 static void write_message(fm_text *text, const row_state *row)
 {
     char part[96];
     fm_text message = { 0 };
-    const fm_plan *plan = row->results->plan;
-    const uint32_t done = row->result->done,
-                   wanted = plan_case_launches(plan, (size_t)(row->measured - plan->cases));
+    const uint32_t done = row->result->done, wanted = row->result->wanted;
     if (row->excluded > 0 && row->samples < FM_SAMPLES_WANTED) {
         snprintf(part, sizeof part, "unclear: only %zu samples at full clock", row->samples);
         add_part(&message, part);
@@ -87,6 +114,10 @@ static void write_message(fm_text *text, const row_state *row)
         case_status_continues(row->result->status)) {
         snprintf(part, sizeof part, "%u of %u launches so far: the run is not finished", done,
                  wanted);
+        add_part(&message, part);
+    } else if (row->measured->settings.precision_percent > 0.0 && done > 0 &&
+               case_status_continues(row->result->status)) {
+        write_precision(part, sizeof part, row);
         add_part(&message, part);
     }
     add_part(&message, row->result->message);
@@ -262,7 +293,9 @@ static fm_interval times_floor(const row_state *row)
         if (!isnan(ms) && floor_ms > 0.0)
             row->by_launch[count++] = ms / floor_ms;
     }
-    return stats_interval(row->by_launch, count);
+    const double coverage = coverage_of(row);
+    return coverage > 0.0 ? stats_interval_at(row->by_launch, count, coverage)
+                          : stats_interval(row->by_launch, count);
 }
 
 /* The slowest frame has the lowest rate. */
@@ -446,4 +479,21 @@ void summary_noise(fm_text *text, const fm_results *results, size_t case_index)
     else
         text->failed = true;
     close_row(&row);
+}
+
+fm_status summary_half_width(double *half_width, bool *has_times, const fm_results *results,
+                             size_t case_index, fm_error *err)
+{
+    row_state row = { 0 };
+    fm_status status = FM_OK;
+    *half_width = NAN;
+    *has_times = false;
+    if (open_row(&row, results, case_index)) {
+        const fm_interval frame_ms = interval_of_frames(&row, FM_METRIC_FRAME_MS);
+        *half_width = precision_half_width(&frame_ms);
+        *has_times = !isnan(frame_ms.median);
+    } else
+        status = fm_fail(err, FM_NO_MEMORY, "no memory for the times of a case");
+    close_row(&row);
+    return status;
 }

@@ -235,7 +235,9 @@ static fm_prediction predict(tbr *gpu, const fm_pair *pair)
 {
     if (gpu->technique.predict == NULL)
         return FM_VISIBLE;
+    hook_enter(gpu->desc.mark, FM_HOOK_PREDICT);
     const fm_prediction prediction = gpu->technique.predict(pair);
+    hook_leave(gpu->desc.mark, FM_HOOK_PREDICT);
     gpu->counters.fvp_reads++;
     gpu->counters.hidden_by_layer += prediction == FM_HIDDEN_BY_LAYER;
     gpu->counters.hidden_by_depth += prediction == FM_HIDDEN_BY_DEPTH;
@@ -244,22 +246,33 @@ static fm_prediction predict(tbr *gpu, const fm_pair *pair)
 
 static bool sign(tbr *gpu, tbr_bin *bin, const fm_pair *pair, fm_prediction prediction)
 {
-    if (!tbr_has(gpu, FM_PART_SIGNATURES))
+    if (!tbr_has(gpu, FM_PART_SIGNATURES) || gpu->technique.sign == NULL)
         return true;
-    return gpu->technique.sign == NULL || gpu->technique.sign(&bin->bits, pair, prediction);
+    hook_enter(gpu->desc.mark, FM_HOOK_SIGN);
+    const bool is_signed = gpu->technique.sign(&bin->bits, pair, prediction);
+    hook_leave(gpu->desc.mark, FM_HOOK_SIGN);
+    return is_signed;
+}
+
+static fm_place ask_place(const tbr *gpu, const fm_pair *pair, fm_prediction prediction)
+{
+    if (gpu->technique.place == NULL)
+        return FM_PLACE_FIRST;
+    hook_enter(gpu->desc.mark, FM_HOOK_PLACE);
+    const fm_place answer = gpu->technique.place(pair, prediction);
+    hook_leave(gpu->desc.mark, FM_HOOK_PLACE);
+    return answer;
 }
 
 /* Hooks see a copy; one that writes to it changes nothing, and is refused. */
 static fm_status ask_hooks(pair_answers *answers, tbr *gpu, uint32_t tile, const fm_pair *pair,
                            fm_error *err)
 {
-    const fm_technique *hooks = &gpu->technique;
     fm_pair shown;
     memcpy(&shown, pair, sizeof shown);
     answers->prediction = predict(gpu, &shown);
     answers->is_signed = sign(gpu, &gpu->bins[tile], &shown, answers->prediction);
-    answers->place =
-        hooks->place != NULL ? hooks->place(&shown, answers->prediction) : FM_PLACE_FIRST;
+    answers->place = ask_place(gpu, &shown, answers->prediction);
     if ((unsigned)answers->prediction > FM_HIDDEN_BY_DEPTH)
         return no_answer("predict", answers->prediction, tile, err);
     if ((unsigned)answers->place > FM_PLACE_BARRIER)

@@ -28,6 +28,7 @@
 
 #include "counters.h"
 #include "fragmark/technique.h"
+#include "plugin/hook_mark.h"
 #include "scene/frames.h"
 
 /* A simulator. It is used by one thread, whatever threads it works with itself. Tiles are numbered
@@ -69,6 +70,7 @@ typedef struct tbr_geometry {
 typedef struct tbr_desc {
     uint32_t width_px, height_px;  /* of the screen, 1 to FRAMES_SIDE_MAX */
     const fm_technique *technique; /* NULL: the GPU alone, which renders every tile */
+    fm_hook_mark *mark;            /* told where its hooks are called; NULL: nobody asks */
     uint32_t parts;                /* FM_PART_*: the technique's, with those of chosen options, as
                                       technique_parts() tells them */
     uint32_t threads;              /* of the raster phase; 0: one a processor; 16 at most */

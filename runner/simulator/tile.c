@@ -379,7 +379,9 @@ static fm_tile_end end_tile(tile_state *tile)
         end.is_equal = equals_image(tile);
     if (gpu->technique.tile_end == NULL)
         return end;
+    hook_enter(gpu->desc.mark, FM_HOOK_TILE_END);
     gpu->technique.tile_end(&end);
+    hook_leave(gpu->desc.mark, FM_HOOK_TILE_END);
     check_end(tile, &end);
     return end;
 }
@@ -423,7 +425,7 @@ static void render(tile_state *tile)
     tile->gpu->desc.rendered(tile->gpu->desc.context, &work);
 }
 
-static bool is_skipped(tile_state *tile)
+static bool keeps_colours(tile_state *tile)
 {
     const tbr *gpu = tile->gpu;
     const tbr_memory *memory = &gpu->memory[tile->tile];
@@ -435,7 +437,12 @@ static bool is_skipped(tile_state *tile)
     if (gpu->technique.skip == NULL || !tbr_has(gpu, FM_PART_SIGNATURES))
         return false;
     tile->counters.signature_compares++;
-    return tbr_has_previous(gpu) && gpu->technique.skip(&start);
+    if (!tbr_has_previous(gpu))
+        return false;
+    hook_enter(gpu->desc.mark, FM_HOOK_SKIP);
+    const bool is_skipped = gpu->technique.skip(&start);
+    hook_leave(gpu->desc.mark, FM_HOOK_SKIP);
+    return is_skipped;
 }
 
 void tile_run(tbr *gpu, tbr_thread *thread, uint32_t index)
@@ -446,7 +453,7 @@ void tile_run(tbr *gpu, tbr_thread *thread, uint32_t index)
     tile.y = (int32_t)(index / gpu->tiles_x) * side;
     tile.width = clamp((int32_t)gpu->desc.width_px - tile.x, 0, side);
     tile.height = clamp((int32_t)gpu->desc.height_px - tile.y, 0, side);
-    if (is_skipped(&tile)) {
+    if (keeps_colours(&tile)) {
         tile.counters.tiles_skipped++;
         gpu->bins[index].is_skipped = true;
     } else {

@@ -85,6 +85,10 @@ typedef struct fm_request {
 /* The longest message of an answer, in bytes. */
 enum { FM_MESSAGE_MAX_BYTES = 8191 };
 
+/* Beside its answer, from the answer's path: what of the plugin runs (plugin/hook_mark.h). Whoever
+ * started the worker removes it. */
+#define WORKER_HOOK_FILE "%s.hook"
+
 /* What a worker exits with when its answer could not be written. */
 enum { WORKER_EXIT_NO_ANSWER = 74 };
 

@@ -139,6 +139,7 @@ static fm_status start(technique_run *run, fm_error *err)
     const tbr_desc desc = { .width_px = run->sequence->width_px,
                             .height_px = run->sequence->height_px,
                             .technique = method != NULL ? method->technique : NULL,
+                            .mark = job->mark,
                             .parts = run->parts,
                             .binned = cycles_binned,
                             .rendered = cycles_rendered,

@@ -19,6 +19,7 @@
 #include <jansson.h>
 
 #include "model/settings.h"
+#include "plugin/hook_mark.h"
 #include "simulator/technique.h"
 
 typedef struct fm_technique_job {
@@ -26,10 +27,11 @@ typedef struct fm_technique_job {
     const fm_settings *settings;  /* finished */
     const fm_choice *choices;
     size_t choice_count;
-    const char *truth; /* file: written by the baseline, else read */
-    const char *image; /* file for the first frame that is not the baseline's; "": none */
-    const char *keep;  /* file for the wrong tiles of all frames and the pictures of the first wrong
-                          ones (truth/kept_file.h); NULL or "": none */
+    fm_hook_mark *mark; /* told where its hooks are called; NULL: nobody asks */
+    const char *truth;  /* file: written by the baseline, else read */
+    const char *image;  /* file for the first frame that is not the baseline's; "": none */
+    const char *keep; /* file for the wrong tiles of all frames and the pictures of the first wrong
+                         ones (truth/kept_file.h); NULL or "": none */
     uint64_t kept_bytes; /* most of these pictures; 0: TECHNIQUE_KEPT_BYTES */
 } fm_technique_job;
 

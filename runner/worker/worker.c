@@ -14,6 +14,7 @@
 #include "model/feeds.h"
 #include "plugin/culling_apply.h"
 #include "plugin/plugin.h"
+#include "process/open_files.h"
 #include "protocol.h"
 #include "technique_job.h"
 #include "verdict.h"
@@ -26,6 +27,8 @@ typedef struct launch_job {
     json_t *answer;
     fm_device *device;
     fm_plugin *method, *floor;
+    const char *mark_path;
+    fm_hook_mark *mark;   /* what of the plugin is running; NULL: it cannot be told */
     fm_method_desc desc;  /* the method, with culling if that is asked for */
     fm_settings settings; /* finished */
     uint32_t feed;
@@ -43,6 +46,7 @@ typedef struct launch_job {
     bool is_truths;   /* the truth file is read */
     bool is_devices;  /* the device cannot be opened, which says nothing of what it supports */
     bool is_floors;   /* the floor, which fragmark brings, is opened */
+    bool is_leaking;  /* the plugin left so many files open that there may be no more */
 } launch_job;
 
 static fm_status read_feed(launch_job *job)
@@ -97,9 +101,12 @@ static bool has_frames(const launch_job *job)
 static fm_status open_plugins(launch_job *job)
 {
     job->is_opening = true;
+    job->mark = hook_mark_open(job->mark_path, job->request->plugin);
     code_add_plugin(&job->code, FM_CODE_OF_METHOD, job->request->plugin);
+    hook_enter(job->mark, FM_HOOK_LOAD);
     fm_status status =
         plugin_open(&job->method, job->request->plugin, job->request->common, &job->error);
+    hook_leave(job->mark, FM_HOOK_LOAD);
     job->is_opening = status != FM_OK;
     if (status != FM_OK || has_frames(job))
         return status;
@@ -146,6 +153,8 @@ static bool is_runs_fault(const launch_job *job, fm_status status)
         return false;
     if (!job->has_request || job->is_floors || job->is_devices)
         return true;
+    if (job->is_leaking && strstr(job->error.message, strerror(EMFILE)) != NULL)
+        return false;
     if ((status == FM_IO || job->is_opening) && names_the_world(job->error.message))
         return true;
     if (job->measurement.is_floors)
@@ -157,7 +166,7 @@ static bool is_runs_fault(const launch_job *job, fm_status status)
  * that cannot be had are nothing that a method did wrong. */
 static fm_case_status verdict(const launch_job *job, fm_status status)
 {
-    const bool is_plugins = job->is_opening || job->is_plugins;
+    const bool is_plugins = job->is_opening || job->is_plugins || job->is_leaking;
     if (status != FM_OK && job->is_opening)
         return FM_CASE_PLUGIN_ERROR;
     switch (status) {
@@ -212,6 +221,7 @@ static fm_status frames_job(launch_job *job)
         .settings = &job->settings,
         .choices = job->request->choices,
         .choice_count = job->request->choice_count,
+        .mark = job->mark,
         .truth = job->request->truth,
         .image = job->request->image,
         .keep = job->request->keep[KEPT_FRAMES],
@@ -266,12 +276,14 @@ static fm_status measure(launch_job *job)
         .choice_count = job->request->choice_count,
         .fragments = job->truth->fragment_count,
         .fragments_kept = truth_kept(job->truth, places),
+        .mark = job->mark,
     };
     fm_instance_desc floor = method;
     floor.method = job->floor->method;
     floor.folders.method = job->floor->folder;
     floor.folders.owner = FM_CODE_OF_FLOOR;
     floor.choice_count = 0;
+    floor.mark = NULL;
     const fm_measure_desc desc = { .method = &method,
                                    .floor = &floor,
                                    .truth = job->truth,
@@ -387,6 +399,7 @@ static void release(launch_job *job)
     device_close(job->device);
     plugin_close(job->floor);
     plugin_close(job->method);
+    hook_mark_close(job->mark);
     request_free(&job->read);
     code_free(&job->code);
     json_decref(job->answer);
@@ -421,6 +434,13 @@ static void note_starved(launch_job *job, fm_case_status word)
     answer_set_starved(job->answer);
 }
 
+static void note_left_open(launch_job *job, uint32_t count)
+{
+    job->is_leaking = job->method != NULL && count > 0;
+    if (job->is_leaking)
+        note(job, "%s left %u files open", job->method->method->id, count);
+}
+
 /* An answer that does not fit is tried once more with the reason alone. */
 static int write_answer(const json_t *answer, const char *path)
 {
@@ -439,7 +459,11 @@ static int write_answer(const json_t *answer, const char *path)
 
 int worker_main(const char *request_path, const char *answer_path, const fm_device_list *devices)
 {
-    launch_job job = { .devices = devices, .answer = json_object() };
+    char mark_path[FM_PATH_MAX_BYTES];
+    snprintf(mark_path, sizeof mark_path, WORKER_HOOK_FILE, answer_path);
+    launch_job job = { .devices = devices, .answer = json_object(), .mark_path = mark_path };
+    fm_open_files files;
+    open_files_begin(&files);
     job.request = &job.read.request;
     fm_status status = request_read(&job.read, request_path, &job.error);
     job.has_request = status == FM_OK;
@@ -450,6 +474,7 @@ int worker_main(const char *request_path, const char *answer_path, const fm_devi
                  : job.request->is_device_job ? open_device(&job)
                  : job.request->is_truth_job  ? truth_job(&job)
                                               : measure_job(&job);
+    note_left_open(&job, open_files_left(&files));
     const fm_case_status word = case_status_of(&job, status);
     note_validation(&job, word);
     note_starved(&job, word);

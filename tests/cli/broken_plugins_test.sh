@@ -8,8 +8,7 @@ temporary=$(mktemp -d)
 trap 'rm -rf "$temporary"' EXIT
 failed=0
 export XDG_CACHE_HOME=$temporary/cache
-marker="broken-plugins-test-$$"
-export FRAGMARK_TEST_MARKER=$marker # inherited by whatever a plugin starts
+. "$(dirname "$0")/nothing_left.sh"
 
 fail() {
     echo "FAILED: $*"
@@ -27,20 +26,6 @@ head -c 5000 "$hostile/prints/prints.so" >"$files/cut/cut.so"
 ln -s /nowhere.so "$files/dangling/dangling.so"
 ln -s /dev/zero "$files/device/device.so"
 cp "$hostile/prints/prints.so" "$files/wild-name/wild-name.so"
-
-# What is still running of what the plugins started; the shell and this script are not.
-expect_nothing_left() { # WHAT
-    local pid left=
-    for pid in /proc/[0-9]*; do
-        pid=${pid#/proc/}
-        if [ "$pid" != $$ ] && [ "$pid" != "${BASHPID:-0}" ] &&
-            grep -qsz "^FRAGMARK_TEST_MARKER=$marker" "/proc/$pid/environ" &&
-            grep -qs fragmark "/proc/$pid/cmdline"; then
-            left+=" $pid"
-        fi
-    done
-    [ -z "$left" ] || fail "$1 left running:$left"
-}
 
 expect_line() { # FILE PATTERN
     grep -qE -- "$2" "$1" || fail "no line '$2' in $(basename "$1"): $(grep -- "${3:-.}" "$1" | head -c 3000)"

@@ -39,6 +39,22 @@ for command in list doctor plan run reproduce report dump; do
 done
 check help_of_run_has_the_axes 0 "pixel_density" "$program" run --help
 
+check help_of_run_has_the_precision 0 "0.01%..100% (none)" "$program" run --help
+check precision_is_a_percentage 2 "-a precision=2: precision: '2' is not a legal value; legal: 0.01%..100%" \
+    "$program" plan "${small[@]:0:2}" -a precision=2
+check precision_needs_its_first_look 2 "launches = 3: with precision it is the most that there may be" \
+    "$program" plan "${small[@]:0:2}" -a precision=2% -a launches=3
+check precision_has_a_range_of_launches 0 "1 to run: 5 to 40 launches of 2 frames each, seed 1; about 5 s to 40 s" \
+    "$program" plan --method exact "${small[@]:0:14}" -a precision=2%
+check equal_times_are_precise 0 "precise enough after 5 of at most 40 launches" \
+    "$program" run --method exact,kplus-array "${small[@]}" -a precision=2% -o "$here/precise"
+[ "$(grep -c 'precision 2%: reached, 0% after 5 launches' "$here/precise/summary.csv")" = 2 ] ||
+    complain "equal_times_are_precise: rows say so"
+check precise_rows_are_not_measured_again 0 "2 ok, 0 not supported, 0 failed" \
+    "$program" run --method exact,kplus-array "${small[@]}" -a precision=2% -o "$here/precise"
+[ "$(grep -c '"event":"end"' "$here/precise/journal.jsonl")" = 10 ] ||
+    complain "precise_rows_are_not_measured_again: launches"
+
 check methods_are_listed 0 "null" "$program" list methods
 check methods_are_listed_with_their_traits 0 "[exact, bounded, sorts in resolve, emits either way] Vasilakis" \
     "$program" list methods

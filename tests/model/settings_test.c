@@ -53,6 +53,29 @@ static void keys_have_defaults_that_are_legal(void **state)
     }
 }
 
+static void percent_is_written_with_its_sign(void **state)
+{
+    (void)state;
+    static const char *const wrong[] = { "2",   "0%",  "-1%",  "101%", "%",
+                                         "abc", "2%%", "nan%", "",     "2 %" };
+    static const char *const right[] = { "2%", "0.01%", "0.1%", "100%", "none" };
+    const fm_key *key = key_find("precision");
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        fm_settings settings = defaults();
+        fm_error err = { 0 };
+        assert_int_equal(settings_set(&settings, key, wrong[i], &err), FM_INVALID);
+        assert_non_null(strstr(err.message, "is not a legal value; legal: 0.01%..100%"));
+        assert_true(settings.precision_percent == 0.0);
+    }
+    for (size_t i = 0; i < sizeof right / sizeof right[0]; i++) {
+        char text[FM_PATH_MAX_BYTES];
+        fm_settings settings = defaults();
+        set(&settings, "precision", right[i]);
+        settings_text(text, &settings, key);
+        assert_string_equal(text, right[i]);
+    }
+}
+
 static void key_nearest_corrects_spelling(void **state)
 {
     (void)state;
@@ -421,6 +444,7 @@ int main(void)
         cmocka_unit_test(keys_of_enums_have_a_distinct_name_for_each_value),
         cmocka_unit_test(settings_defaults_are_the_synthetic_scene),
         cmocka_unit_test(keys_have_defaults_that_are_legal),
+        cmocka_unit_test(percent_is_written_with_its_sign),
         cmocka_unit_test(key_nearest_corrects_spelling),
         cmocka_unit_test(keys_help_names_every_key),
         cmocka_unit_test(settings_set_refuses_and_says_what_is_legal),

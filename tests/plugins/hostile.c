@@ -1,18 +1,18 @@
 /* Plugins that do what no plugin should: each is built of this file, with DEED, one of the
- * functions below, for its constructor, or with a field of the descriptor that is wrong. They lie
- * in a folder of their own, so that only the tests of broken plugins meet them. */
-#include <fcntl.h>
-#include <signal.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <sys/resource.h>
-#include <unistd.h>
-
+ * functions of deeds.h, and PLACE, where it is done: in_constructor, or in_hook, where the method
+ * is good until its hook is called; or with a field of the descriptor that is wrong. They lie in
+ * folders of their own, so that only the tests of broken plugins meet them. */
+#include "deeds.h"
 #include "head.h"
 
 #ifndef DEED
 #define DEED nothing
+#endif
+#ifndef PLACE
+#define PLACE in_constructor
+#endif
+#ifndef ANSWER
+#define ANSWER FM_NEXT
 #endif
 #ifndef TITLE
 #define TITLE "Hostile"
@@ -23,122 +23,33 @@
 #ifndef ABI
 #define ABI FM_ABI
 #endif
-#define DEED_OF(NAME) __attribute__((unused)) static void NAME(void)
+#ifndef TRAITS
+#define TRAITS FM_TRAIT_CONTROL
+#endif
+#ifndef RESOLVE_SHADER
+#define RESOLVE_SHADER "resolve.glsl"
+#endif
 
-/* The symbols keep the compiler from seeing what nobody should write. */
-extern volatile int hostile_zero;
-volatile int hostile_zero;
-
-DEED_OF(nothing)
-{
-}
-
-DEED_OF(exits)
-{
-    exit(0);
-}
-
-DEED_OF(crashes)
-{
-    raise(SIGSEGV);
-}
-
-DEED_OF(spins)
-{
-    while (hostile_zero == 0)
-        continue;
-}
-
-DEED_OF(sleeps)
-{
-    while (hostile_zero == 0)
-        pause();
-}
-
-DEED_OF(stops)
-{
-    raise(SIGSTOP);
-}
-
-DEED_OF(prints)
-{
-    puts("HOSTILE OUTPUT");
-    fputs("HOSTILE OUTPUT\n", stderr);
-    fflush(NULL);
-}
-
-DEED_OF(prints_on)
-{
-    while (hostile_zero == 0)
-        prints();
-}
-
-DEED_OF(eats)
-{
-    const size_t bytes = (size_t)64 << 20;
-    for (;;) {
-        char *eaten = malloc(bytes);
-        if (eaten == NULL)
-            abort();
-        memset(eaten, 1, bytes);
-    }
-}
-
-/* A daemon in a session of its own, forked twice, that lives on; the plugin is good. */
-DEED_OF(daemonises)
-{
-    if (fork() != 0)
-        return;
-    setsid();
-    if (fork() != 0)
-        _exit(0);
-    sleeps();
-}
-
-DEED_OF(forks)
-{
-    if (fork() == 0)
-        sleeps();
-}
-
-DEED_OF(raises_limits)
-{
-    const struct rlimit none = { RLIM_INFINITY, RLIM_INFINITY };
-    setrlimit(RLIMIT_CPU, &none);
-    setrlimit(RLIMIT_AS, &none);
-    spins();
-}
-
-/* All streams are gone; the plugin is good. */
-DEED_OF(closes)
-{
-    for (int fd = 0; fd < 1024; fd++)
-        close(fd);
-}
-
-DEED_OF(kills_parent)
-{
-    kill(getppid(), SIGKILL);
-    sleeps();
-}
-
-DEED_OF(kills_group)
-{
-    kill(0, SIGKILL);
-}
-
-DEED_OF(fills_disk)
-{
-    char part[1 << 16] = "HOSTILE OUTPUT";
-    const int file = open("/tmp", O_TMPFILE | O_RDWR, 0600);
-    while (write(file, part, sizeof part) == (ssize_t)sizeof part)
-        continue;
-    spins();
-}
+/* Which of the two functions below does it. */
+enum { in_constructor, in_hook };
 
 __attribute__((constructor)) static void act(void)
 {
-    DEED();
+    if (PLACE == in_constructor)
+        DEED();
+}
+
+/* Called in each frame, between two passes. */
+__attribute__((unused)) static fm_next after(const fm_workload *workload, const char *pass)
+{
+    static const unsigned answer = (unsigned)ANSWER; /* C lets it be none of them */
+    fm_next next;
+    (void)workload;
+    (void)pass;
+    if (PLACE == in_hook)
+        DEED();
+    memcpy(&next, &answer, sizeof next);
+    return next;
 }
 
 #ifdef ZEROS
@@ -149,12 +60,20 @@ const fm_method_desc fm_method = {
     .abi = ABI,
     .size_bytes = SIZE,
     .title = TITLE,
+    .traits = TRAITS,
     .resources = { NEAREST },
     .passes = { { .name = "clear",
                   .kind = FM_PASS_CLEAR,
                   .writes = { "nearest" },
                   .clear_word = 0x7F800000u },
                 STORE,
-                RESOLVE },
+                { .name = "ask", .kind = FM_PASS_HOST },
+                { .name = "resolve",
+                  .kind = FM_PASS_PIXELS,
+                  .shader = RESOLVE_SHADER,
+                  .reads = { "nearest" },
+                  .emits = true } },
+    .keeps = FM_KEEPS_NEAREST,
+    .after = after,
 };
 #endif

@@ -20,7 +20,9 @@ typedef struct heard {
 static fm_status hear(void *context, fm_journal_event event, const char *case_id, uint32_t launch,
                       const json_t *result, fm_error *err)
 {
-    static const char *const names[] = { "begin", "end", "died", "stop", "forget" };
+    static const char *const names[] = {
+        "begin", "end", "died", "stop", "more", "enough", "forget"
+    };
     heard *all = context;
     const size_t length = strlen(all->text);
     (void)err;
