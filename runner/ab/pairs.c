@@ -71,9 +71,9 @@ static fm_status measure_pair(ab_session *session, size_t index, uint32_t pair, 
     fm_status status = FM_OK;
     snprintf(current, sizeof current, "%.140s, pair %u", session->result->cases[index].name, pair);
     progress_begin(&session->progress, current);
-    for (int i = 0; i < AB_SIDE_COUNT && status == FM_OK && !should_stop(session) &&
-                    !has_failed(session, index);
-         i++) {
+    /* Both sides, also where the first fails: only so is known whether the other does, too. */
+    const int sides = has_failed(session, index) ? 0 : AB_SIDE_COUNT;
+    for (int i = 0; i < sides && status == FM_OK && !should_stop(session); i++) {
         const int side = i == 0 ? (int)first : 1 - (int)first;
         const size_t at = session->result->pairs.items[index].at[side];
         status = run_launch(session->runs[side], at, pair, err);

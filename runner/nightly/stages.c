@@ -1,9 +1,10 @@
 #include "stages.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
-#include <unistd.h>
 
 #include "child/child.h"
 
@@ -42,10 +43,19 @@ static fm_status list_arguments(fm_text_list *argv, const fm_tonight *tonight, c
     return is_made ? FM_OK : fm_fail(err, FM_NO_MEMORY, "no memory for arguments");
 }
 
+/* Whether a launch ended: summary.csv is there before any does. */
 static bool has_results(const char *run)
 {
-    char path[FM_PATH_MAX_BYTES];
-    return path_join(path, run, "summary.csv", NULL) == FM_OK && access(path, R_OK) == 0;
+    char path[FM_PATH_MAX_BYTES], *line = NULL;
+    size_t room = 0;
+    bool has = false;
+    FILE *journal = path_join(path, run, "journal.jsonl", NULL) == FM_OK ? fopen(path, "re") : NULL;
+    while (!has && journal != NULL && getline(&line, &room, journal) > 0)
+        has = strstr(line, "\"event\":\"end\"") != NULL;
+    free(line);
+    if (journal != NULL)
+        fclose(journal);
+    return has;
 }
 
 static fm_status launch(int *code, fm_tonight *tonight, const fm_text_list *argv, double seconds,

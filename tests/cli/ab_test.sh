@@ -75,7 +75,7 @@ want 2 gate "$work/base" "$work/broken" --method kplus-heap "${small[@]}" --pair
 says 'is refused'
 
 # Killed, then again: what ended stays.
-"$program" ab kplus-heap@"$work/base" kplus-heap@"$work/build" "${small[@]}" --pairs 40 -o "$work/killed" >/dev/null 2>&1 &
+"$program" ab kplus-heap@"$work/base" kplus-heap@"$work/build" "${small[@]}" --pairs 80 -o "$work/killed" >/dev/null 2>&1 &
 parent=$!
 for _ in $(seq 6000); do # a busy machine needs its time
     [ "$(cat "$work/killed/new/journal.jsonl" 2>/dev/null | grep -c '"event":"end"')" -lt 5 ] || break
@@ -84,17 +84,17 @@ done
 kill -KILL $parent
 wait $parent 2>/dev/null || true
 before=$(launches killed base)
-[ "$before" -ge 4 ] && [ "$before" -lt 40 ] || fail "it was not killed in the middle: $before launches"
-want 0 ab kplus-heap@"$work/base" kplus-heap@"$work/build" "${small[@]}" --pairs 40 -o "$work/killed"
+[ "$before" -ge 4 ] && [ "$before" -lt 80 ] || fail "it was not killed in the middle: $before launches"
+want 0 ab kplus-heap@"$work/base" kplus-heap@"$work/build" "${small[@]}" --pairs 80 -o "$work/killed"
 for side in base new; do
     twice=$(grep '"event":"end"' "$work/killed/$side/journal.jsonl" | sed 's/.*"launch":\([0-9]*\).*/\1/' | sort | uniq -d)
     [ -z "$twice" ] || fail "$side: launches $twice were measured twice"
-    [ "$(launches killed $side)" = 40 ] || fail "$side: $(launches killed $side) launches, not 40"
+    [ "$(launches killed $side)" = 80 ] || fail "$side: $(launches killed $side) launches, not 80"
 done
 # Interrupted: it says so, and judges nothing.
 "$program" ab kplus-heap@"$work/base" kplus-heap@"$work/build" "${small[@]}" --pairs 400 -o "$work/stopped" >"$work/said" 2>"$work/talk" &
 parent=$!
-for _ in $(seq 600); do
+for _ in $(seq 6000); do
     [ "$(cat "$work/stopped/new/journal.jsonl" 2>/dev/null | grep -c '"event":"end"')" -lt 3 ] || break
     sleep 0.02
 done

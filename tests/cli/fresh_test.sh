@@ -39,17 +39,23 @@ forgotten() { # FOLDER METHOD: how often its row was begun anew
     grep -c "{\"event\":\"forget\",\"case\":\"$id\"}" "$1/journal.jsonl" || true
 }
 
-# The first launch of two; the parent is killed in the second, as its worker begins.
+# The first launch of two; the parent is killed in the second, as its worker begins. It may end before
+# the signal comes; then it is tried again.
 kill_after_first() {
-    local folder=$1
-    "$work/bin/fragmark" run -q "${arguments[@]}" -a launches=2 -o "$folder" >/dev/null 2>&1 &
-    local parent=$!
-    for _ in $(seq 600); do
-        [ "$(cat "$folder/journal.jsonl" 2>/dev/null | grep -c '"event":"end"')" -lt 2 ] || break
-        sleep 0.02
+    local folder=$1 parent
+    for _ in $(seq 30); do
+        rm -rf "$folder"
+        "$work/bin/fragmark" run -q "${arguments[@]}" -a launches=2 -o "$folder" >/dev/null 2>&1 &
+        parent=$!
+        while kill -0 "$parent" 2>/dev/null &&
+            [ "$(cat "$folder/journal.jsonl" 2>/dev/null | grep -c '"event":"end"')" -lt 2 ]; do
+            sleep 0.01
+        done
+        kill -KILL "$parent" 2>/dev/null || true
+        wait "$parent" 2>/dev/null || return 0
     done
-    kill -KILL "$parent"
-    wait "$parent" 2>/dev/null || true
+    echo "fresh_test: it always ended before it was killed"
+    exit 1
 }
 
 # refused FOLDER NAME ARGUMENT...: exit code 7, the name of what changed, and no file touched

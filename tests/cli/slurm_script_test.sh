@@ -65,7 +65,7 @@ stopped() { # RESTARTS: the task's exit code
     rm -rf long/shard-1
     SLURM_ARRAY_JOB_ID=7 SLURM_ARRAY_TASK_ID=1 SLURM_RESTART_COUNT=$1 bash long/shards.sbatch >log 2>&1 &
     local task=$! code=0
-    for _ in $(seq 600); do
+    for _ in $(seq 6000); do
         [ "$(cat long/shard-1/journal.jsonl 2>/dev/null | grep -c '"event":"end"')" -lt 2 ] || break
         sleep 0.02
     done
