@@ -1,7 +1,7 @@
 /* Did a case become slower in the last nights? The alarm of one night.
  *
  * The room reports/history keeps what runs of many nights measured, in one SQLite file
- * (database.h, nights.h, runs.h), finds cases again (series.h), and decides when a series says
+ * (database.h, runs.h, record.h), finds cases again (series.h), and decides when a series says
  * that something became slower (this header). Nothing here draws or writes a page. */
 #ifndef FM_HISTORY_ALARM_H
 #define FM_HISTORY_ALARM_H

@@ -1,4 +1,5 @@
-/* Where the program keeps what it remembers between runs: the history, the baselines. */
+/* Where the program keeps what it remembers between runs: the history, the baselines, the
+ * calibrations. */
 #ifndef FM_STATE_H
 #define FM_STATE_H
 

@@ -12,8 +12,7 @@ enum { KEY_SMOKE = 512, KEY_LARGE, KEY_REFERENCE, KEY_SEEDS };
 enum { SEEDS_MAX = 100 };
 
 static const struct argp_option options[] = {
-    { "smoke", KEY_SMOKE, NULL, 0,
-      "the figure's own small variant: three launches of one frame, minutes, no GPU needed", 0 },
+    { "smoke", KEY_SMOKE, NULL, 0, "the figure's own small variant: minutes, no GPU needed", 0 },
     { "large", KEY_LARGE, NULL, 0, "also what takes hours without a GPU", 0 },
     { "seeds", KEY_SEEDS, "N", 0,
       "scenes made from each of the seeds 1 to N, and intervals over them (1)", 0 },
