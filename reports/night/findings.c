@@ -1,6 +1,7 @@
 #include "findings.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -64,49 +65,79 @@ static bool repeats(const fm_case_row *row)
     return (row->look.traits & FM_TRAIT_RACY) == 0 && !(row->metric[FM_METRIC_DISTINCT_IMAGES] > 1);
 }
 
-static fm_status compare_number(fm_night_result *night, size_t index, fm_metric metric,
-                                double before, fm_error *err)
+/* What is compared of a night. */
+static const struct {
+    fm_metric metric;
+    size_t at;
+} numbers[] = {
+    { FM_METRIC_BYTES_ALLOCATED, offsetof(fm_series_night, bytes_allocated) },
+    { FM_METRIC_MISSING, offsetof(fm_series_night, missing) },
+    { FM_METRIC_EXTRA, offsetof(fm_series_night, extra) },
+    { FM_METRIC_MISORDERED, offsetof(fm_series_night, misordered) },
+    { FM_METRIC_MAX_ABS, offsetof(fm_series_night, max_abs) },
+    { FM_METRIC_TOTAL_RMSE, offsetof(fm_series_night, total_rmse) },
+};
+enum { NUMBER_COUNT = sizeof numbers / sizeof numbers[0] };
+
+static double number_of(const fm_series_night *night, size_t number)
+{
+    return *(const double *)(const void *)((const char *)night + numbers[number].at);
+}
+
+/* The newest night before the last that has the number: nights that were cut off, or failed, have
+ * not, and what is worse after them is worse than before. NULL: none has. */
+static const fm_series_night *newest_with(const fm_series *series, size_t number)
+{
+    for (size_t i = series->count - 1; i-- > 0;)
+        if (!isnan(number_of(&series->nights[i], number)))
+            return &series->nights[i];
+    return NULL;
+}
+
+/* The same of a status: of a case that had its turn. */
+static const fm_series_night *newest_with_status(const fm_series *series)
+{
+    fm_case_status status;
+    for (size_t i = series->count - 1; i-- > 0;)
+        if (case_status_parse(&status, series->nights[i].status) && status != FM_CASE_SKIPPED)
+            return &series->nights[i];
+    return NULL;
+}
+
+static fm_status compare_number(fm_night_result *night, size_t index, size_t number, fm_error *err)
 {
     char base[32], now[32];
+    const fm_metric metric = numbers[number].metric;
     const fm_case_row *row = &night->desc->now->cases[index];
     const fm_error_kind *kind = error_kind_by_metric(metric);
     const fm_finding_kind found = kind_of(fm_metrics[metric].name);
-    const double grown = row->metric[metric] - before;
+    const fm_series_night *before = newest_with(night->cases[index].series, number);
+    if (before == NULL)
+        return FM_OK;
+    const double grown = row->metric[metric] - number_of(before, number);
     if (!(grown > (kind != NULL ? kind->exact_below : 0.0)) ||
         (found == FM_FINDING_ERROR && !repeats(row)))
         return FM_OK;
-    text_from_double(base, before);
+    text_from_double(base, number_of(before, number));
     text_from_double(now, row->metric[metric]);
     return add(night,
-               &(worsening){ found, index, fm_metrics[metric].name, base, now,
-                             night->cases[index].previous->started },
+               &(worsening){ found, index, fm_metrics[metric].name, base, now, before->started },
                err);
 }
 
 static fm_status compare_case(fm_night_result *night, size_t index, fm_error *err)
 {
-    const fm_series_night *before = night->cases[index].previous;
     const fm_case_row *row = &night->desc->now->cases[index];
-    const struct {
-        fm_metric metric;
-        double value;
-    } numbers[] = {
-        { FM_METRIC_BYTES_ALLOCATED, before->bytes_allocated },
-        { FM_METRIC_MISSING, before->missing },
-        { FM_METRIC_EXTRA, before->extra },
-        { FM_METRIC_MISORDERED, before->misordered },
-        { FM_METRIC_MAX_ABS, before->max_abs },
-        { FM_METRIC_TOTAL_RMSE, before->total_rmse },
-    };
+    const fm_series_night *before = newest_with_status(night->cases[index].series);
     fm_status status = FM_OK;
-    if (is_worse_status(before->status, row->status))
+    if (before != NULL && is_worse_status(before->status, row->status))
         status = add(night,
                      &(worsening){ FM_FINDING_STATUS, index, "status", before->status, row->status,
                                    before->started },
                      err);
-    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0] && status == FM_OK; i++)
+    for (size_t i = 0; i < NUMBER_COUNT && status == FM_OK; i++)
         if (row->is_measured)
-            status = compare_number(night, index, numbers[i].metric, numbers[i].value, err);
+            status = compare_number(night, index, i, err);
     return status;
 }
 

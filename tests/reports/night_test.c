@@ -63,12 +63,15 @@ static void end(kit_night *kit)
 }
 
 /* What is found of two nights that have these cells; kind NULL: nothing. */
-static void expect(const char *before, const char *now, const char *kind, const char *text)
+static void expect_after(const char *before, const char *between, const char *now, const char *kind,
+                         const char *text)
 {
     kit_night kit;
     begin(&kit);
     add_night(&kit, 0, before, 30);
-    add_night(&kit, 1, now, 30);
+    if (between != NULL)
+        add_night(&kit, 1, between, 30);
+    add_night(&kit, 2, now, 30);
     judge(&kit);
     assert_int_equal(kit.night.alarms, kind != NULL ? 1 : 0);
     assert_int_equal(kit.night.count, kit.night.alarms);
@@ -78,6 +81,28 @@ static void expect(const char *before, const char *now, const char *kind, const 
         assert_non_null(strstr(kit.night.findings[0].text, "2026-03-01"));
     }
     end(&kit);
+}
+
+static void expect(const char *before, const char *now, const char *kind, const char *text)
+{
+    expect_after(before, NULL, now, kind, text);
+}
+
+/* A night that was cut off, or failed, does not hide what is worse after it. */
+static void nights_without_a_number_are_passed_over(void **state)
+{
+    static const char without[] = "frame_ms=;frame_ms_low=;frame_ms_high=;samples=0;"
+                                  "bytes_allocated=;missing=;extra=;misordered=;max_abs=;"
+                                  "total_rmse=";
+    char skipped[256], crash[256];
+    (void)state;
+    snprintf(skipped, sizeof skipped, "k=4;status=skipped;%s", without);
+    snprintf(crash, sizeof crash, "k=4;status=crash;%s", without);
+    expect_after("k=4", skipped, "k=4;bytes_allocated=4100", "memory", "4096 -> 4100");
+    expect_after("k=4", crash, "k=4;missing=1", "error", "missing 0 -> 1");
+    expect_after("k=4", skipped, crash, "status", "ok -> crash");
+    expect_after("k=4", skipped, "k=4", NULL, NULL);
+    expect_after("k=4", skipped, skipped, NULL, NULL);
 }
 
 static void what_got_worse_since_last_night_is_a_finding(void **state)
@@ -209,6 +234,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_got_worse_since_last_night_is_a_finding),
+        cmocka_unit_test(nights_without_a_number_are_passed_over),
         cmocka_unit_test(races_are_held_to_their_memory_alone),
         cmocka_unit_test(a_failure_without_a_past_is_told),
         cmocka_unit_test(an_alarm_on_time_may_be_dismissed_by_who_measures_again),
