@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -15,8 +16,11 @@
 #include "stages.h"
 
 enum {
-    CONTINUE_S = 24 * 3600, /* older nights that were not finished stay so */
-    LOCK_S = 30             /* in which a run whose nightly was killed has stopped */
+    /* Older nights that were not finished stay so: less than a day, for tonight is not last night.
+     */
+    CONTINUE_S = 16 * 3600,
+    NAMES_MOST = 60, /* seconds ahead of now that a folder may be named by */
+    LOCK_S = 30      /* in which a run whose nightly was killed has stopped */
 };
 
 typedef struct nightly_arguments {
@@ -74,7 +78,8 @@ static const struct argp argp = {
            "\v"
            "Each night has a folder DIR/UTC with the run, its report, summary.md (one page), "
            "junit.xml, history.html and night.json; DIR/latest leads to the last. A night that "
-           "was killed goes on when the same command comes within a day.\n\n"
+           "was killed goes on when the same command comes within 16 hours, unless its plan is "
+           "another.\n\n"
            "A policy, with the defaults; lists are as after --method, --scene, ... of `fragmark "
            "run`:\n\n"
            "  methods: []            # all but controls\n"
@@ -204,10 +209,27 @@ static fm_status plan_night(fm_tonight *tonight, const char *root, fm_error *err
     return status;
 }
 
+/* A folder of its own, named by the second, or by the next one that is free. */
+static fm_status make_folder(fm_night_state *night, const char *root, time_t now, fm_error *err)
+{
+    fm_status status = path_make_folders(root, err);
+    for (int ahead = 0; ahead < NAMES_MOST && status == FM_OK; ahead++) {
+        char name[32];
+        struct tm utc;
+        const time_t then = now + ahead;
+        gmtime_r(&then, &utc);
+        strftime(name, sizeof name, "%Y%m%dT%H%M%SZ", &utc);
+        status = path_join(night->folder, root, name, err);
+        if (status == FM_OK && mkdir(night->folder, 0777) == 0)
+            return FM_OK;
+        if (status == FM_OK && errno != EEXIST)
+            status = fm_fail(err, FM_IO, "%s: %s", night->folder, strerror(errno));
+    }
+    return status == FM_OK ? fm_fail(err, FM_IO, "%s: no name for a night is free", root) : status;
+}
+
 static fm_status begin_night(fm_tonight *tonight, const char *root, fm_error *err)
 {
-    char name[32];
-    struct tm utc;
     fm_night_state *night = &tonight->night;
     const time_t now = time(NULL);
     night->begun_s = (int64_t)now;
@@ -215,11 +237,7 @@ static fm_status begin_night(fm_tonight *tonight, const char *root, fm_error *er
     fm_status status = plan_night(tonight, root, err);
     if (status != FM_OK)
         return status;
-    gmtime_r(&now, &utc);
-    strftime(name, sizeof name, "%Y%m%dT%H%M%SZ", &utc);
-    status = path_join(night->folder, root, name, err);
-    if (status == FM_OK)
-        status = path_make_folders(night->folder, err);
+    status = make_folder(night, root, now, err);
     return status == FM_OK ? night_state_write(night, err) : status;
 }
 

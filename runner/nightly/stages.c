@@ -84,7 +84,8 @@ static void take_code(int *code, fm_tonight *tonight, const char *run)
         *code == CLI_DONE || *code == CLI_CLAIM_FAILS || *code == CLI_SOME_FAILED;
     if (is_measured && has_results(run))
         night->stage = FM_NIGHT_JUDGES;
-    if (*code == CLI_OTHER_CODE)
+    /* A continued run that is refused is of another plan: its spec or the methods have changed. */
+    if (*code == CLI_OTHER_CODE || (*code == CLI_USAGE && tonight->is_continued))
         night->stage = FM_NIGHT_GIVEN_UP;
 }
 

@@ -12,7 +12,7 @@ typedef enum fm_night_stage {
     FM_NIGHT_MEASURES, /* NIGHT/run is begun */
     FM_NIGHT_JUDGES,   /* it is measured, or its time is over */
     FM_NIGHT_DONE,
-    FM_NIGHT_GIVEN_UP, /* its rows were begun with other code than came after */
+    FM_NIGHT_GIVEN_UP, /* its rows were begun with other code, or another plan, than came after */
     FM_NIGHT_STAGES
 } fm_night_stage;
 

@@ -46,7 +46,6 @@ grep -q "nightly: quiet" "$first/summary.md" || fail "the first night is not qui
 [ "$(ends "$first")" = 8 ] || fail "not 4 launches of 2 cases: $(ends "$first")"
 
 # The second night is another entry, and knows the first.
-sleep 1
 expect 0 "summary.md" nightly
 [ "$(realpath nights/latest)" != "$first" ] || fail "the second night is the first"
 expect 0 "started" "$program" history list --state state
@@ -58,7 +57,7 @@ expect 0 "page.html" "$program" history page -o page.html --state state
 
 # Killed, with what it started left alone: it goes on in the same folder, and measures no launch twice.
 sed -i 's/launches_least: 2/launches_least: 15/; s/launches_most: 4/launches_most: 15/' policy.yml
-sleep 1
+
 "$program" nightly policy.yml >log 2>&1 &
 nightly_id=$!
 for _ in $(seq 3000); do # a busy machine needs its time
@@ -81,7 +80,6 @@ grep -q '"stage": "done"' "$killed/nightly.json" || fail "it is not done"
 # A time that is too short cuts the launches off; what is there is judged.
 sed -i 's/launches_least: 15/launches_least: 900/; s/launches_most: 15/launches_most: 1000/' policy.yml
 sed -i 's/methods: .*/methods: [kplus-array]/; s/budget_minutes: 9/budget_minutes: 0.3/' policy.yml
-sleep 1
 expect 0 "summary.md" nightly
 grep -q "the time was over before all of them were" nights/latest/summary.md || fail "it was not cut off"
 
@@ -94,7 +92,7 @@ bytes=$("$program" history show kplus-array --state state --json | grep -o '"byt
 sed -i "s/,$bytes,/,$((bytes - 4)),/g" better/summary.csv
 expect 0 "state/baselines/good/" "$program" baseline set good better --state state
 rm -r better # it is a copy
-sleep 1
+
 expect 1 "memory: " nightly
 grep -q "nightly: ALARM" nights/latest/summary.md || fail "summary.md has no alarm"
 grep -q "since baseline good" nights/latest/summary.md || fail "summary.md does not name the baseline"
@@ -121,6 +119,6 @@ expect 2 "the nearest is 'show'" "$program" history shwo --state state
 expect 2 "the nearest is 'kplus-array'" "$program" history show kplus-aray --state state
 echo "no database, and longer than a few bytes" >state/history.sqlite
 expect 8 "no history of fragmark" "$program" history list --state state
-sleep 1
+
 expect 8 "no history of fragmark" nightly
 echo "nightly_test: ok"
