@@ -195,6 +195,11 @@ static fm_status keep(const comparing *of, const calibrate_arguments *given, fm_
         status = noise_read(&list, path, &machine, err);
     for (size_t i = 0; i < of->result.count && status == FM_OK; i++) {
         ab_noise noise;
+        if (of->result.cases[i].verdict == AB_UNMEASURED) {
+            fprintf(given->shared.selection.cli->talk, "left out, for it was not measured: %s\n",
+                    of->result.cases[i].name);
+            continue;
+        }
         status = take_noise(&noise, &of->result.cases[i], given->pairs, &usual, err);
         if (status == FM_OK)
             status = noise_keep(&list, &noise, err);

@@ -78,7 +78,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         given->lead_s = number_of(state, "--signal-lead", text, 1, LEAD_MAX_S);
         return 0;
     case KEY_REQUEUES:
-        given->requeues = number_of(state, "--requeues", text, 1, REQUEUES_MAX);
+        given->requeues = number_of(state, "--requeues", text, 0, REQUEUES_MAX);
         return 0;
     case 'h':
         argp_state_help(state, state->out_stream, ARGP_HELP_STD_HELP);

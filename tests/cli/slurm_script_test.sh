@@ -91,6 +91,7 @@ command -v sbatch >/dev/null || expect 3 'slurm-client' "my spec.yml" -n 2 -o se
 
 # Figures, with our options before or behind
 expect 0 'afterany' -n 2 --requeues 1 reproduce kplus-05 --smoke -o figure
+expect 0 'afterany' -n 2 --requeues 0 reproduce kplus-05 --smoke -o never
 grep -q 'fragmark reproduce kplus-05 --smoke --shard' figure/shards.sbatch || complain "no reproduction: $(cat figure/shards.sbatch)"
 expect 0 'afterany' run "my spec.yml" -n 2 -o spec
 grep -q "fragmark run 'my spec.yml' --shard" spec/shards.sbatch || complain "no run: $(cat spec/shards.sbatch)"
