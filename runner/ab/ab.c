@@ -119,6 +119,8 @@ static fm_status close_runs(ab_session *session, fm_status status, fm_error *err
         fm_run_result ended;
         if (status == FM_OK && session->result->is_finished)
             run_settle(session->runs[side]);
+        if (session->runs[side] != NULL) /* who asks first has the signal */
+            run_stop(session->runs[side], session->result->stop_signal);
         const fm_status closed =
             run_close(&ended, session->runs[side], status, status == FM_OK ? err : &below);
         session->result->is_damaged = session->result->is_damaged || ended.is_damaged;

@@ -237,6 +237,12 @@ int run_stop_signal(fm_open_run *run)
     return should_stop(run) ? run->stop_signal : 0;
 }
 
+void run_stop(fm_open_run *run, int signal)
+{
+    if (run->stop_signal == 0)
+        run->stop_signal = signal;
+}
+
 void run_settle(fm_open_run *run)
 {
     for (size_t i = 0; i < run->plan->count; i++)

@@ -26,6 +26,8 @@ fm_status run_launch(fm_open_run *run, size_t case_index, uint32_t launch, fm_er
 const fm_results *run_results(const fm_open_run *run);
 /* The signal that asks to stop, heard now or before; 0: none. */
 int run_stop_signal(fm_open_run *run);
+/* Another run that is open beside it heard this signal: it is stopped, too. 0: none. */
+void run_stop(fm_open_run *run, int signal);
 
 /* No further launch is wanted: cases with any are finished, however many the plan has. */
 void run_settle(fm_open_run *run);

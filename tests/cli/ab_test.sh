@@ -103,6 +103,9 @@ code=0
 wait $parent || code=$?
 [ $code = 143 ] || fail "interrupted: exit code $code"
 says 'nothing is judged yet'
+for side in base new; do # neither run is told to be over
+    ! grep -q '"ended": "' "$work/stopped/$side/manifest.json" || fail "the side $side says that it ended"
+done
 
 # A calibration is kept, read, and refused on another machine.
 want 0 calibrate -q --pairs 20 --device dummy -a n=4 -a k=2 -a width_px=16 -a height_px=12 -a frames=2 -o "$work/state/here.json"
