@@ -92,20 +92,6 @@ static const struct argp argp = {
            "changed.",
 };
 
-static int code_of(fm_status status)
-{
-    switch (status) {
-    case FM_OK:
-        return FM_EXIT_DONE;
-    case FM_UNSUPPORTED:
-        return FM_EXIT_USAGE;
-    case FM_INVALID:
-        return FM_EXIT_DAMAGED;
-    default:
-        return FM_EXIT_INCOMPLETE;
-    }
-}
-
 static int set(const char *store, const char *name, const char *directory, fm_error *err)
 {
     char path[FM_PATH_MAX_BYTES];
@@ -120,7 +106,7 @@ static int set(const char *store, const char *name, const char *directory, fm_er
     if (status == FM_OK)
         printf("%s\n", path);
     result_files_close(results);
-    return code_of(status);
+    return results_exit_code(status);
 }
 
 static fm_status add_checks(fm_text *text, const fm_baseline_list *list, fm_error *err)
@@ -159,7 +145,7 @@ static int print(const char *store, const baseline_arguments *given, fm_error *e
         status = fm_fail(err, FM_IO, "what it printed could not be written");
     text_free(&text);
     baselines_free(&list);
-    return code_of(status);
+    return results_exit_code(status);
 }
 
 int baseline_main(int argc, char **argv)

@@ -95,20 +95,6 @@ static const struct argp argp = {
            "written; 8 a damaged or foreign history, baseline, or results.",
 };
 
-static int code_of(fm_status status)
-{
-    switch (status) {
-    case FM_OK:
-        return FM_EXIT_DONE;
-    case FM_UNSUPPORTED:
-        return FM_EXIT_USAGE;
-    case FM_INVALID:
-        return FM_EXIT_DAMAGED;
-    default:
-        return FM_EXIT_INCOMPLETE;
-    }
-}
-
 /* A night does without a baseline that nobody has set on this machine, and says so. */
 static fm_status open_baseline(session *with)
 {
@@ -206,7 +192,7 @@ static int judge(session *with)
     fm_status status = night_judge(&night, &desc, with->err);
     if (status == FM_OK)
         status = write_files(with, &night);
-    int code = code_of(status);
+    int code = results_exit_code(status);
     if (status == FM_OK) {
         for (size_t i = 0; i < night.count; i++)
             printf("%s: %s: %s\n", finding_kind_name(night.findings[i].kind),
@@ -238,7 +224,7 @@ static int run(session *with)
     status = open_baseline(with);
     if (status == FM_OK)
         status = record(with);
-    return status == FM_OK ? judge(with) : code_of(status);
+    return status == FM_OK ? judge(with) : results_exit_code(status);
 }
 
 int night_main(int argc, char **argv)

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/path.h"
+#include "model/exit_code.h"
 
 static bool holds(const char *directory, const char *file)
 {
@@ -51,4 +52,18 @@ fm_status results_folder_check(const char *directory, fm_error *err)
         free(names[i]);
     free(names);
     return status;
+}
+
+int results_exit_code(fm_status status)
+{
+    switch (status) {
+    case FM_OK:
+        return FM_EXIT_DONE;
+    case FM_UNSUPPORTED:
+        return FM_EXIT_USAGE;
+    case FM_INVALID:
+        return FM_EXIT_DAMAGED;
+    default:
+        return FM_EXIT_INCOMPLETE;
+    }
 }
