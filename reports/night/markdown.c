@@ -56,6 +56,16 @@ static void add_counts(fm_text *text, const fm_night_result *night)
     text_add(text, "; %zu measured on a busy machine.\n\n", noisy);
 }
 
+static void add_newer(fm_text *text, const fm_newer_runs *newer)
+{
+    if (newer->count > 0)
+        text_add(
+            text,
+            "The history has %zu later run%s of these cases, the last of %s. This page is about "
+            "the run above, and about those before it.\n\n",
+            newer->count, newer->count == 1 ? "" : "s", newer->last);
+}
+
 static void add_certainty(fm_text *text, const fm_night_result *night)
 {
     const double effect = night->desc->effect > 0 ? night->desc->effect : 1.06;
@@ -107,6 +117,7 @@ void night_add_markdown(fm_text *text, const fm_night_result *night)
     add_counts(text, night);
     for (size_t i = 0; notes != NULL && i < notes->count; i++)
         text_add(text, "%s\n\n", notes->items[i]);
+    add_newer(text, &night->newer);
     add_certainty(text, night);
     add_steps(text, night);
     text_add(text, "Files: `history.html`, `junit.xml`, `night.json`, `run/summary.csv`.\n");

@@ -5,6 +5,7 @@
 #ifndef FM_NIGHT_H
 #define FM_NIGHT_H
 
+#include "history/runs.h"
 #include "history/series.h"
 #include "read/result_files.h"
 
@@ -49,9 +50,10 @@ typedef struct fm_night_case {
 
 typedef struct fm_night_result {
     const fm_night_desc *desc;
-    fm_series_list series;
-    fm_night_case *cases; /* [now->count]; owned */
-    fm_finding *findings; /* [count], in the order of the kinds; owned */
+    fm_series_list series; /* up to this run */
+    fm_newer_runs newer;   /* which the history has, too, and which are not looked at */
+    fm_night_case *cases;  /* [now->count]; owned */
+    fm_finding *findings;  /* [count], in the order of the kinds; owned */
     size_t count, capacity;
     size_t alarms;       /* findings that were not dismissed */
     size_t early;        /* cases of too few nights for an alarm on time */
@@ -61,7 +63,8 @@ typedef struct fm_night_result {
     double noisiest;     /* its standard error now; NAN: unknown */
 } fm_night_result;
 
-/* Statuses, memory and errors are held against the night before and the baseline, exactly, as
+/* Judges this run, be it the last one of the history or not, by nights that began before it did.
+ * Statuses, memory and errors are held against the night before and the baseline, exactly, as
  * fragmark compare does; times by the alarms of their series (history/alarm.h). Times are never
  * held against one night alone. desc is borrowed. FM_INVALID, FM_IO, FM_NO_MEMORY as database.h;
  * FM_UNSUPPORTED: the reference is not in the history. The caller frees, after a failure too. */

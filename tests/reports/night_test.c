@@ -140,10 +140,55 @@ static void a_failure_without_a_past_is_told(void **state)
     end(&kit);
 }
 
+/* The history may have nights after it: of another policy, or from when it was judged first. */
+static void a_night_that_is_not_the_last_is_judged_by_those_before_it(void **state)
+{
+    fm_text markdown = { 0 };
+    kit_night kit;
+    (void)state;
+    begin(&kit);
+    add_night(&kit, 0, "k=4", 30);
+    add_night(&kit, 2, "k=4;bytes_allocated=5000", 30);
+    add_night(&kit, 3, "k=4;bytes_allocated=5000", 30);
+    add_night(&kit, 1, "k=4;bytes_allocated=4100", 30);
+    judge(&kit);
+    assert_int_equal(kit.night.alarms, 1);
+    assert_non_null(strstr(kit.night.findings[0].text, "4096 -> 4100 since 2026-03-01"));
+    assert_int_equal(kit.night.newer.count, 2);
+    night_add_markdown(&markdown, &kit.night);
+    assert_non_null(strstr(markdown.bytes, "2 later runs of these cases, the last of 2026-03-04T"));
+    text_free(&markdown);
+    night_free(&kit.night);
+    add_night(&kit, 3, "k=4;bytes_allocated=5000", 30);
+    judge(&kit);
+    assert_int_equal(kit.night.alarms, 0);
+    assert_int_equal(kit.night.newer.count, 0);
+    end(&kit);
+}
+
 static void add_step(kit_night *kit)
 {
     for (unsigned i = 0; i < 26; i++)
         add_night(kit, i, "k=4", (i < 23 ? 30 : 33) + 0.01 * (i * 7 % 5));
+}
+
+/* What was worse that night stays so, whatever came after it. */
+static void a_step_is_found_again_after_later_nights(void **state)
+{
+    kit_night kit;
+    (void)state;
+    begin(&kit);
+    add_step(&kit);
+    for (unsigned i = 26; i < 30; i++)
+        add_night(&kit, i, "k=4", 30);
+    judge(&kit);
+    assert_int_equal(kit.night.alarms, 0);
+    night_free(&kit.night);
+    add_night(&kit, 25, "k=4", 33.01);
+    judge(&kit);
+    assert_int_equal(kit.night.alarms, 1);
+    assert_int_equal(kit.night.findings[0].kind, FM_FINDING_SLOWER);
+    end(&kit);
 }
 
 static bool dismiss(fm_finding *finding, const fm_result_files *now, void *context)
@@ -237,6 +282,8 @@ int main(void)
         cmocka_unit_test(nights_without_a_number_are_passed_over),
         cmocka_unit_test(races_are_held_to_their_memory_alone),
         cmocka_unit_test(a_failure_without_a_past_is_told),
+        cmocka_unit_test(a_night_that_is_not_the_last_is_judged_by_those_before_it),
+        cmocka_unit_test(a_step_is_found_again_after_later_nights),
         cmocka_unit_test(an_alarm_on_time_may_be_dismissed_by_who_measures_again),
         cmocka_unit_test(the_launches_that_are_needed_follow_from_the_noise),
         cmocka_unit_test(a_baseline_is_held_against_each_night),
