@@ -34,7 +34,7 @@ static json_t *describe(const char *name, const char *machine, const fm_result_f
 {
     char now[32] = "", *from = realpath(results->directory, NULL);
     const fm_provenance *manifest = results->manifest;
-    const fm_hardware hardware = hardware_of(manifest);
+    const fm_hardware hardware = provenance_hardware(manifest);
     const time_t seconds = time(NULL);
     struct tm utc;
     if (gmtime_r(&seconds, &utc) != NULL)
@@ -131,7 +131,7 @@ fm_status baseline_set(char path[FM_PATH_MAX_BYTES], const char *store, const ch
 {
     char folder[FM_PATH_MAX_BYTES], made[FM_PATH_MAX_BYTES], partial[32];
     char machine[FM_FINGERPRINT_BYTES];
-    const fm_hardware hardware = hardware_of(results->manifest);
+    const fm_hardware hardware = provenance_hardware(results->manifest);
     fm_status status = check(name, &hardware, results, err);
     if (status == FM_OK)
         status = choose_machine(machine, store, name, &hardware, err);
