@@ -170,18 +170,18 @@ fm_status comparing_plan(comparing *of, fm_error *err)
 
 fm_status comparing_read_noise(comparing *of, fm_error *err)
 {
-    char path[FM_PATH_MAX_BYTES];
+    char folder[FM_PATH_MAX_BYTES], path[FM_PATH_MAX_BYTES];
     fm_machine machine;
     const char *given = of->given->calibration;
     if (given != NULL && strcmp(given, "none") == 0)
         return FM_OK;
     machine_describe(&machine);
-    if (given == NULL)
-        return noise_path(path, &machine, NULL) == FM_OK
-                   ? noise_read(&of->noise, path, &machine, err)
-                   : FM_OK;
-    fm_status status = noise_read(&of->noise, given, &machine, err);
-    if (status == FM_OK && of->noise.count == 0)
+    if (given == NULL && noise_folder(folder, NULL) != FM_OK)
+        return FM_OK; /* nowhere to keep one */
+    fm_status status = given == NULL ? noise_find(path, folder, &machine, err) : FM_OK;
+    if (status == FM_OK)
+        status = noise_read(&of->noise, given == NULL ? path : given, &machine, err);
+    if (status == FM_OK && given != NULL && of->noise.count == 0)
         status = fm_fail(err, FM_INVALID, "--calibration %s: no such file", given);
     return status;
 }
@@ -212,7 +212,7 @@ fm_status comparing_run(comparing *of, const char *command, fm_error *err)
     return ab_run(&of->result, &desc, err);
 }
 
-static int fail(const comparing *of, const fm_error *err)
+int comparing_fail(const comparing *of, const fm_error *err)
 {
     const int code = cli_fail(of->given->selection.cli, err);
     if (of->result.is_other_code)
@@ -252,16 +252,21 @@ static bool has_failed(const ab_case *of)
     return false;
 }
 
-static int code_of(const ab_result *result)
+bool comparing_has_failures(const comparing *of)
 {
-    size_t failed = 0;
-    if (ab_count(result, AB_WORSE) > 0)
+    for (size_t i = 0; i < of->result.count; i++)
+        if (has_failed(&of->result.cases[i]))
+            return true;
+    return false;
+}
+
+static int code_of(const comparing *of)
+{
+    if (ab_count(&of->result, AB_WORSE) > 0)
         return CLI_WORSE;
-    for (size_t i = 0; i < result->count; i++)
-        failed += has_failed(&result->cases[i]);
-    if (failed > 0)
+    if (comparing_has_failures(of))
         return CLI_SOME_FAILED;
-    return ab_count(result, AB_UNMEASURED) < result->count ? CLI_DONE : CLI_NOTHING;
+    return ab_count(&of->result, AB_UNMEASURED) < of->result.count ? CLI_DONE : CLI_NOTHING;
 }
 
 int comparing_report(const comparing *of, fm_status status, const fm_error *err)
@@ -269,7 +274,7 @@ int comparing_report(const comparing *of, fm_status status, const fm_error *err)
     fm_error below = { 0 };
     FILE *talk = of->given->selection.cli->talk;
     if (status != FM_OK)
-        return fail(of, err);
+        return comparing_fail(of, err);
     if (!of->result.is_finished) {
         fprintf(talk,
                 "interrupted, nothing is lost, and nothing is judged yet: the same command with "
@@ -283,7 +288,7 @@ int comparing_report(const comparing *of, fm_status status, const fm_error *err)
     }
     fprintf(talk, "%s/ab.csv, %s/pairs.csv; `fragmark compare %s/base %s/new` shows both runs\n",
             of->directory, of->directory, of->directory, of->directory);
-    return code_of(&of->result);
+    return code_of(of);
 }
 
 void comparing_free(comparing *of)

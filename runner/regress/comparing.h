@@ -44,6 +44,10 @@ fm_status comparing_read_noise(comparing *of, fm_error *err);
 fm_status comparing_run(comparing *of, const char *command, fm_error *err);
 /* Prints the verdicts as asked for, and returns the exit code; status: of comparing_run. */
 int comparing_report(const comparing *of, fm_status status, const fm_error *err);
+/* Says why comparing_run failed, and returns the exit code. */
+int comparing_fail(const comparing *of, const fm_error *err);
+/* Whether a case failed on either side. */
+bool comparing_has_failures(const comparing *of);
 void comparing_free(comparing *of);
 
 #define COMPARING_EXIT_CODES                                                                       \

@@ -111,7 +111,7 @@ done
 want 0 calibrate -q --pairs 20 --device dummy -a n=4 -a k=2 -a width_px=16 -a height_px=12 -a frames=2 -o "$work/state/here.json"
 says 'changes count from'
 want 0 ab kplus-heap@"$work/base" kplus-heap@"$work/build" "${small[@]}" --calibration "$work/state/here.json" --pairs 6 -o "$work/calibrated"
-sed 's/"fingerprint": "[0-9a-f]*"/"fingerprint": "0123456789abcdef"/' "$work/state/here.json" >"$work/state/there.json"
+sed 's/"cores": [0-9]*/"cores": 12345/' "$work/state/here.json" >"$work/state/there.json"
 want 2 ab kplus-heap@"$work/base" kplus-heap@"$work/build" "${small[@]}" --calibration "$work/state/there.json" -o "$work/none"
 says 'another machine'
 XDG_STATE_HOME=$work/state want 0 calibrate -q --pairs 20 --device dummy -a n=4 -a k=2 -a width_px=16 -a height_px=12 -a frames=2
@@ -126,8 +126,84 @@ says "the nearest is 'kplus-heap'"
 want 2 ab ab-ll@"$work/base" ab-ll@"$work/base" "${small[@]}" # the program's own is not meant
 says "has no method 'ab-ll'"
 want 2 ab kplus-heap@"$work/none" kplus-heap@"$work/base" "${small[@]}"
+want 2 calibrate -q --pairs 20 --device dummy -a n=4 -a k=2 -a width_px=16 -a height_px=12 -a frames=2 -o "$work/state/there.json" --results "$work/refused-file"
+says 'another machine'
+[ ! -e "$work/refused-file" ] || fail "it measured for a file that it cannot add to"
 says 'No such file'
 want 2 ab kplus-heap@"$work/base" kplus-heap@"$work/base" "${small[@]}" -a launches=3
+# A kernel that counted a little more memory, as after another boot: it is the same machine, and its file.
+kept=$(echo "$work"/state/fragmark/calibration/*.json)
+bytes=$(grep -o '"memory_bytes": [0-9]*' "$kept" | grep -o '[0-9]*$')
+sed -i "s/\"memory_bytes\": [0-9]*/\"memory_bytes\": $((bytes / 100 * 101))/" "$kept"
+mv "$kept" "$work/state/fragmark/calibration/0123456789abcdef.json"
+XDG_STATE_HOME=$work/state want 0 calibrate -q --pairs 20 --device dummy -a n=4,6 -a k=2 -a width_px=16 -a height_px=12 -a frames=2
+says 'of these the noisiest case is kept: kplus-heap'
+says 'calibration/0123456789abcdef.json'
+[ "$(find "$work/state/fragmark/calibration" -name '*.json' | wc -l)" = 1 ] || fail "the machine has two calibrations"
+grep -q "\"memory_bytes\": $bytes" "$work/state/fragmark/calibration/0123456789abcdef.json" || fail "the file is not this machine's"
+echo '{' >"$work/state/fragmark/calibration/damaged.json"
+XDG_STATE_HOME=$work/state want 2 ab kplus-heap@"$work/base" kplus-heap@"$work/build" -q --device dummy -a n=4 -o "$work/none"
+says 'damaged.json:'
+
+# A case that crashes on both sides while it runs: the others are judged, and it is named.
+mkdir -p "$work/faulty/picky"
+cat >"$work/picky.c" <<'EOF'
+#include <signal.h>
+
+#include "head.h"
+
+static fm_next after(const fm_workload *workload, const char *pass)
+{
+    (void)pass;
+    if (workload->width_px == 20)
+        raise(SIGSEGV);
+    return FM_NEXT;
+}
+
+const fm_method_desc fm_method = {
+    HEAD("picky"),
+    .resources = { NEAREST },
+    .passes = { { .name = "clear", .kind = FM_PASS_CLEAR, .writes = { "nearest" }, .clear_word = 0x7F800000u },
+                STORE, { .name = "ask", .kind = FM_PASS_HOST }, RESOLVE },
+    .keeps = FM_KEEPS_NEAREST,
+    .after = after,
+};
+EOF
+"$compiler" -shared -fPIC -fvisibility=hidden -I"$source/runner/include" -I"$source/tests/plugins" \
+    -o "$work/faulty/picky/picky.so" "$work/picky.c"
+cp "$source"/tests/plugins/{store,resolve}.glsl "$work/faulty/picky/"
+picky=(-q --device dummy -a n=4 -a height_px=12 -a frames=2)
+want 4 ab picky@"$work/faulty" picky@"$work/faulty" "${picky[@]}" --calibration none --band 100% --no-images \
+    -a width_px=16,20 --pairs 6 -o "$work/both-fail" --json
+says '"unmeasured": 1'
+says '"same": 1'
+says '"status_base": "crash"'
+says '"status_new": "crash"'
+says 'SIGSEGV'
+# calibrate leaves it out, and keeps the other one; if nothing is left, nothing is kept.
+want 4 calibrate --method picky --plugin-dir "$work/faulty" "${picky[@]}" -a width_px=16,20 --pairs 20 -o "$work/state/picky.json"
+says 'left out, for it was not measured: picky'
+says 'SIGSEGV'
+grep -q '"case": "picky.*width_px=16' "$work/state/picky.json" || fail "what was measured is not kept: $(cat "$work/state/picky.json")"
+want 4 calibrate --method picky --plugin-dir "$work/faulty" "${picky[@]}" -a width_px=20 --pairs 20 -o "$work/state/nothing.json"
+says 'nothing could be measured'
+[ ! -e "$work/state/nothing.json" ] || fail "a calibration of nothing was kept"
+
+# Results that cannot be continued end calibrate as they end ab.
+again() { # CODE: both, with what lies in picky-results
+    want "$1" calibrate --method picky --plugin-dir "$work/faulty" "${picky[@]}" -a width_px=16 --pairs 20 \
+        -o "$work/state/picky.json" --results "$work/picky-results"
+    want "$1" ab picky@"$work/faulty" picky@"$work/faulty" "${picky[@]}" --no-images -a width_px=16 --pairs 20 \
+        -o "$work/picky-results"
+}
+want 0 calibrate --method picky --plugin-dir "$work/faulty" "${picky[@]}" -a width_px=16 --pairs 20 \
+    -o "$work/state/picky.json" --results "$work/picky-results"
+head -3 "$work/picky-results/base/journal.jsonl" >"$work/short" # one launch, which ended
+cp "$work/short" "$work/picky-results/base/journal.jsonl"
+echo '// other code' >>"$work/faulty/picky/resolve.glsl"
+again 7
+sed -i '2s/.*/no JSON/' "$work/picky-results/base/journal.jsonl"
+again 8
 says '--pairs'
 want 2 ab kplus-heap@"$work/base" kplus-heap@"$work/base" "${small[@]}" --pairs 20,10
 says 'at least 21'
