@@ -11,7 +11,7 @@ typedef struct comparing_arguments {
     uint32_t looks[AB_LOOKS + 1]; /* ends with 0; none: ab_policy_make's */
     double band;                  /* 0: ab_policy_make's */
     const char *calibration;      /* a file, or "none"; NULL: that of this machine */
-    const char *csv;              /* also write the table here; NULL: not asked for */
+    char *csv;                    /* also write the table here; NULL: not asked for */
 } comparing_arguments;
 
 /* --pairs, --band, --calibration, --csv, --json, --spec; its input is comparing_arguments. */

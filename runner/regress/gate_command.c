@@ -52,13 +52,14 @@ static const struct argp argp = {
         "launches, `worse` only if fresh launches confirm it, outputs (status, bytes, fragments, "
         "errors) exactly and first; a case with worse outputs is not timed. Of two folders of "
         "results it judges the outputs alone, since times of two runs decide nothing; "
-        "`fragmark compare` shows them."
+        "`fragmark compare` shows them. Of these, --csv has a row a case, and --json the same: "
+        "verdict, what changed, code."
         "\v"
         "Examples:\n"
         "  fragmark gate /build/main /build/mine -o tonight\n"
         "  fragmark gate /build/main /build/mine --method kb,kplus-heap -a k=4,16 -a n=32\n"
         "  fragmark gate v1/methods v2/methods --pairs 10,20 --json\n"
-        "  fragmark gate monday tuesday       (two of `fragmark run -o`)\n"
+        "  fragmark gate monday tuesday --csv gate.csv   (two of `fragmark run -o`)\n"
         "\n" COMPARING_EXIT_CODES "\n"
         "\n"
         "Axes, with their values and (default):",
@@ -139,10 +140,49 @@ static int gate_builds(const fm_cli *cli, gate_arguments *given, const char *com
     return code;
 }
 
-static int gate_results(const fm_cli *cli, gate_arguments *given)
+/* What says how builds are measured says nothing of results. */
+static fm_status expect_no_measuring(const gate_arguments *given, fm_error *err)
 {
-    char name[] = "gate", *argv[] = { name, given->sides[AB_BASE], given->sides[AB_NEW], NULL };
-    return report_pass_on(cli, name, 3, argv);
+    const fm_arguments *selection = &given->shared.selection;
+    const struct {
+        const char *option;
+        bool is_given;
+    } options[] = {
+        { "--pairs", given->shared.looks[0] != 0 },
+        { "--band", given->shared.band > 0.0 },
+        { "--calibration", given->shared.calibration != NULL },
+        { "--spec", given->shared.spec != NULL },
+        { "--method", selection->methods.count > 0 },
+        { "--scene", selection->scenes.count > 0 },
+        { "--device", selection->devices.count > 0 },
+        { "--feed", selection->feeds.count > 0 },
+        { "-a", selection->axes.count > 0 },
+        { "--plugin-dir", selection->plugin_folders.count > 0 },
+        { "-o", selection->directory != NULL },
+    };
+    for (size_t i = 0; i < sizeof options / sizeof options[0]; i++)
+        if (options[i].is_given)
+            return fm_fail(err, FM_INVALID,
+                           "%s: BASE and NEW are folders of results, of which nothing is measured",
+                           options[i].option);
+    return FM_OK;
+}
+
+static int gate_results(const fm_cli *cli, const gate_arguments *given)
+{
+    char name[] = "gate", csv[] = "--csv", json[] = "--json";
+    char *argv[8] = { name, given->sides[AB_BASE], given->sides[AB_NEW] };
+    int argc = 3;
+    fm_error err = { 0 };
+    if (expect_no_measuring(given, &err) != FM_OK)
+        return cli_fail(cli, &err);
+    if (given->shared.csv != NULL) {
+        argv[argc++] = csv;
+        argv[argc++] = given->shared.csv;
+    }
+    if (given->shared.selection.json)
+        argv[argc++] = json;
+    return report_pass_on(cli, name, argc, argv);
 }
 
 int regress_gate(const fm_cli *cli, int argc, char **argv)

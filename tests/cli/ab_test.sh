@@ -67,6 +67,18 @@ want 0 gate "$work/fat" "$work/base" "${small[@]}" --pairs 6,8 -o "$work/thinner
 want 1 gate "$work/fatter/base" "$work/fatter/new"
 grep '^worse .*K+B-Heap.*bytes_allocated' "$work/said" >/dev/null || fail "results: the case is not named: $(cat "$work/said")"
 want 0 gate "$work/fatter/new" "$work/fatter/base"
+# The same as a table and as JSON.
+want 1 gate "$work/fatter/base" "$work/fatter/new" --csv "$work/results.csv" --json
+says '"verdict": "worse"'
+says '"what": "bytes_allocated"'
+! grep -q '"ratio"' "$work/said" || fail "times are in the JSON of a gate that does not judge them"
+head -1 "$work/results.csv" | grep -q '^method,.*,status_new,verdict,.*,exact,other_code$' || fail "not its columns: $(head -1 "$work/results.csv")"
+grep -q '^kplus-heap,.*,worse,.*bytes_allocated [0-9]* -> [0-9]*' "$work/results.csv" || fail "the case is not in it: $(cat "$work/results.csv")"
+want 0 gate "$work/fatter/new" "$work/fatter/base" --csv "$work/results.csv"
+grep -q '^kplus-heap,.*,differs,' "$work/results.csv" || fail "what is better is not told: $(cat "$work/results.csv")"
+want 5 gate "$work/fatter/new" "$work/fatter/base" --csv "$work/none/results.csv"
+want 2 gate "$work/fatter/base" "$work/fatter/new" --pairs 20
+says 'of which nothing is measured'
 # A plugin that is refused now.
 want 1 gate "$work/base" "$work/broken" "${small[@]}" --pairs 6 -o "$work/refused"
 grep '^worse .*kplus-heap .*plugin_error' "$work/said" >/dev/null || fail "a refused plugin is not worse: $(cat "$work/said")"
@@ -114,23 +126,11 @@ want 0 ab kplus-heap@"$work/base" kplus-heap@"$work/build" "${small[@]}" --calib
 sed 's/"cores": [0-9]*/"cores": 12345/' "$work/state/here.json" >"$work/state/there.json"
 want 2 ab kplus-heap@"$work/base" kplus-heap@"$work/build" "${small[@]}" --calibration "$work/state/there.json" -o "$work/none"
 says 'another machine'
-XDG_STATE_HOME=$work/state want 0 calibrate -q --pairs 20 --device dummy -a n=4 -a k=2 -a width_px=16 -a height_px=12 -a frames=2
-[ "$(find "$work/state/fragmark/calibration" -name '*.json' | wc -l)" = 1 ] || fail "the calibration is not in XDG_STATE_HOME"
-
-# What cannot be.
-want 2 ab kplus-heap@"$work/base" "${small[@]}"
-want 2 ab kplus-heap "kplus-heap@$work/base" "${small[@]}"
-says 'METHOD@DIR, please'
-want 2 ab kplus-hepa@"$work/base" kplus-heap@"$work/base" "${small[@]}"
-says "the nearest is 'kplus-heap'"
-want 2 ab ab-ll@"$work/base" ab-ll@"$work/base" "${small[@]}" # the program's own is not meant
-says "has no method 'ab-ll'"
-want 2 ab kplus-heap@"$work/none" kplus-heap@"$work/base" "${small[@]}"
 want 2 calibrate -q --pairs 20 --device dummy -a n=4 -a k=2 -a width_px=16 -a height_px=12 -a frames=2 -o "$work/state/there.json" --results "$work/refused-file"
 says 'another machine'
 [ ! -e "$work/refused-file" ] || fail "it measured for a file that it cannot add to"
-says 'No such file'
-want 2 ab kplus-heap@"$work/base" kplus-heap@"$work/base" "${small[@]}" -a launches=3
+XDG_STATE_HOME=$work/state want 0 calibrate -q --pairs 20 --device dummy -a n=4 -a k=2 -a width_px=16 -a height_px=12 -a frames=2
+[ "$(find "$work/state/fragmark/calibration" -name '*.json' | wc -l)" = 1 ] || fail "the calibration is not in XDG_STATE_HOME"
 # A kernel that counted a little more memory, as after another boot: it is the same machine, and its file.
 kept=$(echo "$work"/state/fragmark/calibration/*.json)
 bytes=$(grep -o '"memory_bytes": [0-9]*' "$kept" | grep -o '[0-9]*$')
@@ -204,6 +204,18 @@ echo '// other code' >>"$work/faulty/picky/resolve.glsl"
 again 7
 sed -i '2s/.*/no JSON/' "$work/picky-results/base/journal.jsonl"
 again 8
+
+# What cannot be.
+want 2 ab kplus-heap@"$work/base" "${small[@]}"
+want 2 ab kplus-heap "kplus-heap@$work/base" "${small[@]}"
+says 'METHOD@DIR, please'
+want 2 ab kplus-hepa@"$work/base" kplus-heap@"$work/base" "${small[@]}"
+says "the nearest is 'kplus-heap'"
+want 2 ab ab-ll@"$work/base" ab-ll@"$work/base" "${small[@]}" # the program's own is not meant
+says "has no method 'ab-ll'"
+want 2 ab kplus-heap@"$work/none" kplus-heap@"$work/base" "${small[@]}"
+says 'No such file'
+want 2 ab kplus-heap@"$work/base" kplus-heap@"$work/base" "${small[@]}" -a launches=3
 says '--pairs'
 want 2 ab kplus-heap@"$work/base" kplus-heap@"$work/base" "${small[@]}" --pairs 20,10
 says 'at least 21'
