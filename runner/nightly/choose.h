@@ -6,8 +6,8 @@
 #include "policy.h"
 #include "state.h"
 
-/* Sets launches, part, parts and methods of a new night. A round is one launch of each case: it
- * takes what it took in the night before, or what a plan says. So many rounds as fit into nine
+/* Sets launches, cases, part, parts and methods of a new night. A round is one launch of each case:
+ * it takes what it took in the night before, or what a plan says. So many rounds as fit into nine
  * tenths of the budget are measured, at most launches_most, and no more than the night before found
  * to be needed. If not even launches_least fit, methods take turns: a part of them each night, with
  * the reference in all. FM_NO_MEMORY. */

@@ -291,7 +291,7 @@ static int work(fm_tonight *tonight, const char *root)
     return status == FM_OK ? code : fail(tonight, status, &err);
 }
 
-/* A night whose code changed under it is given up, and another one begun. */
+/* A night whose code or plan changed under it is given up, and another one begun. */
 static int run_nights(fm_tonight *tonight, const char *root)
 {
     bool is_found;
@@ -302,7 +302,7 @@ static int run_nights(fm_tonight *tonight, const char *root)
     if (status != FM_OK)
         return fail(tonight, status, &err);
     const int code = work(tonight, root);
-    if (code != CLI_OTHER_CODE || !tonight->is_continued)
+    if (tonight->night.stage != FM_NIGHT_GIVEN_UP || !tonight->is_continued)
         return code;
     night_state_free(&tonight->night);
     tonight->night = (fm_night_state){ 0 };

@@ -43,21 +43,6 @@ static fm_status list_arguments(fm_text_list *argv, const fm_tonight *tonight, c
     return is_made ? FM_OK : fm_fail(err, FM_NO_MEMORY, "no memory for arguments");
 }
 
-/* Whether a launch ended: summary.csv is there before any does. */
-static bool has_results(const char *run)
-{
-    char path[FM_PATH_MAX_BYTES], *line = NULL;
-    size_t room = 0;
-    bool has = false;
-    FILE *journal = path_join(path, run, "journal.jsonl", NULL) == FM_OK ? fopen(path, "re") : NULL;
-    while (!has && journal != NULL && getline(&line, &room, journal) > 0)
-        has = strstr(line, "\"event\":\"end\"") != NULL;
-    free(line);
-    if (journal != NULL)
-        fclose(journal);
-    return has;
-}
-
 static fm_status launch(int *code, fm_tonight *tonight, const fm_text_list *argv, double seconds,
                         fm_error *err)
 {
@@ -75,14 +60,15 @@ static fm_status launch(int *code, fm_tonight *tonight, const fm_text_list *argv
 }
 
 /* What the run ended with, as the night sees it. */
-static void take_code(int *code, fm_tonight *tonight, const char *run)
+static void take_code(int *code, fm_tonight *tonight)
 {
     fm_night_state *night = &tonight->night;
+    const bool has_results = night_launches_ended(night) > 0; /* summary.csv is there before */
     if (night->is_cut_off)
-        *code = has_results(run) ? CLI_DONE : CLI_NOTHING;
+        *code = has_results ? CLI_DONE : CLI_NOTHING;
     const bool is_measured =
         *code == CLI_DONE || *code == CLI_CLAIM_FAILS || *code == CLI_SOME_FAILED;
-    if (is_measured && has_results(run))
+    if (is_measured && has_results)
         night->stage = FM_NIGHT_JUDGES;
     /* A continued run that is refused is of another plan: its spec or the methods have changed. */
     if (*code == CLI_OTHER_CODE || (*code == CLI_USAGE && tonight->is_continued))
@@ -111,7 +97,7 @@ fm_status stage_measure(int *code, fm_tonight *tonight, fm_error *err)
         return status;
     night->measured_s += (double)((int64_t)time(NULL) - night->attempt_s);
     night->attempt_s = 0;
-    take_code(code, tonight, run);
+    take_code(code, tonight);
     return night_state_write(night, err);
 }
 

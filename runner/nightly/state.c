@@ -24,12 +24,13 @@ static json_t *to_json(const fm_night_state *state)
     json_t *methods = json_array();
     for (size_t i = 0; i < state->methods.count; i++)
         json_array_append_new(methods, json_string(state->methods.items[i]));
-    return json_pack("{s:i, s:s, s:s, s:I, s:I, s:I, s:I, s:o, s:f, s:I, s:b, s:i}", "schema", 1,
-                     "stage", stage_names[state->stage], "policy", state->policy, "begun_s",
-                     (json_int_t)state->begun_s, "launches", (json_int_t)state->launches, "part",
-                     (json_int_t)state->part, "parts", (json_int_t)state->parts, "methods", methods,
-                     "measured_s", state->measured_s, "attempt_s", (json_int_t)state->attempt_s,
-                     "is_cut_off", state->is_cut_off, "code", state->code);
+    return json_pack("{s:i, s:s, s:s, s:I, s:I, s:I, s:I, s:I, s:o, s:f, s:I, s:b, s:i}", "schema",
+                     1, "stage", stage_names[state->stage], "policy", state->policy, "begun_s",
+                     (json_int_t)state->begun_s, "launches", (json_int_t)state->launches, "cases",
+                     (json_int_t)state->cases, "part", (json_int_t)state->part, "parts",
+                     (json_int_t)state->parts, "methods", methods, "measured_s", state->measured_s,
+                     "attempt_s", (json_int_t)state->attempt_s, "is_cut_off", state->is_cut_off,
+                     "code", state->code);
 }
 
 fm_status night_state_write(const fm_night_state *state, fm_error *err)
@@ -90,19 +91,20 @@ static bool take_fields(fm_night_state *state, json_t *json)
     const char *stage = NULL, *policy = NULL;
     const json_t *methods = NULL;
     int schema = 0, is_cut_off = 0;
-    json_int_t begun_s = 0, launches = 0, part = 0, parts = 0, attempt_s = 0;
-    if (json_unpack(json, "{s:i, s:s, s:s, s:I, s:I, s:I, s:I, s:o, s:F, s:I, s:b, s:i}", "schema",
-                    &schema, "stage", &stage, "policy", &policy, "begun_s", &begun_s, "launches",
-                    &launches, "part", &part, "parts", &parts, "methods", &methods, "measured_s",
-                    &state->measured_s, "attempt_s", &attempt_s, "is_cut_off", &is_cut_off, "code",
-                    &state->code) != 0 ||
+    json_int_t begun_s = 0, launches = 0, cases = 0, part = 0, parts = 0, attempt_s = 0;
+    if (json_unpack(json, "{s:i, s:s, s:s, s:I, s:I, s?I, s:I, s:I, s:o, s:F, s:I, s:b, s:i}",
+                    "schema", &schema, "stage", &stage, "policy", &policy, "begun_s", &begun_s,
+                    "launches", &launches, "cases", &cases, "part", &part, "parts", &parts,
+                    "methods", &methods, "measured_s", &state->measured_s, "attempt_s", &attempt_s,
+                    "is_cut_off", &is_cut_off, "code", &state->code) != 0 ||
         schema != 1 || !take_stage(state, stage) || strlen(policy) >= sizeof state->policy ||
-        launches < 1 || launches > UINT32_MAX || parts < 1 || parts > UINT32_MAX || part < 0 ||
-        part >= parts || !(state->measured_s >= 0))
+        launches < 1 || launches > UINT32_MAX || cases < 0 || cases > UINT32_MAX || parts < 1 ||
+        parts > UINT32_MAX || part < 0 || part >= parts || !(state->measured_s >= 0))
         return false;
     strcpy(state->policy, policy);
     state->begun_s = begun_s;
     state->launches = (uint32_t)launches;
+    state->cases = (uint32_t)cases;
     state->part = (uint32_t)part;
     state->parts = (uint32_t)parts;
     state->attempt_s = attempt_s;
@@ -166,6 +168,30 @@ static uint32_t read_needed(const char *folder)
     return needed > 0 && needed < UINT32_MAX ? (uint32_t)needed : 0;
 }
 
+uint64_t night_launches_ended(const fm_night_state *state)
+{
+    char path[FM_PATH_MAX_BYTES], *line = NULL;
+    size_t room = 0;
+    uint64_t ended = 0;
+    FILE *journal = path_join(path, state->folder, "run/journal.jsonl", NULL) == FM_OK
+                        ? fopen(path, "re")
+                        : NULL;
+    while (journal != NULL && getline(&line, &room, journal) > 0)
+        ended += strstr(line, "\"event\":\"end\"") != NULL;
+    free(line);
+    if (journal != NULL)
+        fclose(journal);
+    return ended;
+}
+
+/* Rounds that were measured, the last one maybe in part; 0: not known. */
+static double rounds_of(const fm_night_state *state)
+{
+    if (!state->is_cut_off)
+        return state->launches;
+    return state->cases > 0 ? (double)night_launches_ended(state) / state->cases : 0.0;
+}
+
 static void take_past(fm_night_past *past, const fm_night_state *state, const char *policy)
 {
     if (state->stage != FM_NIGHT_DONE || strcmp(state->policy, policy) != 0)
@@ -173,8 +199,8 @@ static void take_past(fm_night_past *past, const fm_night_state *state, const ch
     past->nights++;
     past->parts = state->parts;
     past->launches_needed = read_needed(state->folder);
-    /* One that was cut off took longer than it measured launches. */
-    past->seconds_per_round = (state->is_cut_off ? 1.5 : 1.0) * state->measured_s / state->launches;
+    const double rounds = rounds_of(state);
+    past->seconds_per_round = rounds > 0.0 ? state->measured_s / rounds : 0.0;
 }
 
 fm_status night_past(fm_night_past *past, const char *root, const char *policy, fm_error *err)

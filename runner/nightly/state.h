@@ -22,6 +22,7 @@ typedef struct fm_night_state {
     char policy[17];      /* fm_policy.hash */
     int64_t begun_s;      /* since 1970 */
     uint32_t launches;    /* of each case */
+    uint32_t cases;       /* that are launched; 0: not known */
     uint32_t part, parts; /* tonight's share of the methods; parts 1: all */
     fm_text_list methods; /* of the part; none: those of the policy */
     double measured_s;    /* in attempts that ended, or were killed */
@@ -41,13 +42,17 @@ fm_status nights_list(fm_text_list *names, const char *root, fm_error *err);
 
 /* What the night before this one found out, for a plan of the next; zero: unknown. */
 typedef struct fm_night_past {
-    double seconds_per_round; /* of one launch of each of its cases */
+    double seconds_per_round; /* of one launch of each of its cases; of a night that was cut off
+                                 by the launches that its journal has */
     uint32_t launches_needed; /* NIGHT/night.json */
     uint32_t nights;          /* that were done, of this policy: whose part it is */
     uint32_t parts;           /* of the last of them */
 } fm_night_past;
 /* Of the nights of this policy; damaged ones count as none. FM_IO, FM_NO_MEMORY. */
 fm_status night_past(fm_night_past *past, const char *root, const char *policy, fm_error *err);
+
+/* Launches of the night that ended, by its journal. */
+uint64_t night_launches_ended(const fm_night_state *state);
 
 /* The time that was measured, with that of an attempt that was killed: up to the last line of its
  * journal. */
