@@ -63,7 +63,7 @@ static const struct argp argp = {
         "`same` if the whole interval lies inside the band: 2 %, or what this machine can see "
         "(`fragmark calibrate`), whichever is larger. It is `worse` or `better` if the exact "
         "signed-rank test says so, with all cases of the command taken into account, at one of the "
-        "looks that --pairs plans. What looks worse is measured again, on launches of its own, "
+        "looks that --pairs plans, and the estimate itself is 2 % at least. What looks worse is measured again, on launches of its own, "
         "and only what is worse again is called so. More bytes, more errors or a worse status are "
         "worse without statistics.\n"
         "\n"
