@@ -94,8 +94,9 @@ static bool has_frames(const comparing_arguments *given)
     return has;
 }
 
-/* More frames than other commands take: on busy machines the least processor time of 20 scatters a quarter as much
- * from launch to launch as that of 5, which sixteen times as many pairs would make up for. */
+/* More frames than other commands take: on busy machines the least processor time of 20 scatters a
+ * quarter as much from launch to launch as that of 5, which sixteen times as many pairs would make
+ * up for. */
 static fm_status use_frames(comparing_arguments *given, fm_error *err)
 {
     return has_frames(given) ? FM_OK : names_add(&given->selection.axes, "frames=20", err);
