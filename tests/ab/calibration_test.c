@@ -40,7 +40,8 @@ static fm_status calibrate(ab_noise *noise, const double *cpu, size_t count, fm_
     return noise_of_pairs(noise, differences, count, &policy, err);
 }
 
-static void quiet_pairs_can_detect_the_band_and_raise_no_alarm(void **state)
+/* An effect of the band itself is below it in half of the gates. */
+static void quiet_pairs_can_detect_little_more_than_the_band_and_raise_no_alarm(void **state)
 {
     (void)state;
     double differences[60];
@@ -49,7 +50,8 @@ static void quiet_pairs_can_detect_the_band_and_raise_no_alarm(void **state)
     assert_int_equal(calibrate(&noise, differences, 60, NULL), FM_OK);
     assert_int_equal(noise.pairs, 60);
     assert_int_equal(noise.planned, 20);
-    assert_near(noise.statistics[AB_CPU].detectable, log1p(0.02), 1e-12);
+    assert_true(noise.statistics[AB_CPU].detectable >= log1p(0.02));
+    assert_true(noise.statistics[AB_CPU].detectable < log1p(0.025));
     assert_int_equal(noise.statistics[AB_CPU].gates, 3);
     assert_int_equal(noise.statistics[AB_CPU].alarms, 0);
     assert_near(noise.statistics[AB_CPU].deviation, 0.01 * sqrt(0.385 * 60.0 / 59.0), 1e-12);
@@ -371,7 +373,7 @@ static void path_is_in_the_state_folder_and_names_the_machine(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(quiet_pairs_can_detect_the_band_and_raise_no_alarm),
+        cmocka_unit_test(quiet_pairs_can_detect_little_more_than_the_band_and_raise_no_alarm),
         cmocka_unit_test(noisy_pairs_can_detect_less_and_more_of_them_more),
         cmocka_unit_test(pairs_that_lean_to_a_side_are_an_alarm),
         cmocka_unit_test(too_few_pairs_are_refused),
