@@ -63,7 +63,7 @@ void comparing_arguments_free(comparing_arguments *given);
     "outputs; 2 usage or spec error, nothing was run; 3 nothing could be measured; 4 some cases "  \
     "failed on both sides; 5 incomplete: the same command with the same -o continues; 7 other "    \
     "code than launches were begun with, or a build whose program does not measure for this one; " \
-    "8 damaged or foreign file; 129, 130, 143 interrupted: "                                       \
-    "the same command with the same -o continues."
+    "8 damaged or foreign file; 129, 130, 143 interrupted: the same command with the same -o "     \
+    "continues."
 
 #endif

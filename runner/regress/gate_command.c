@@ -49,9 +49,8 @@ static const struct argp argp = {
     .doc =
         "Is anything worse than before? Ends with exit code 1 if so. Of two folders of plugins, or "
         "two builds, it measures all methods that both have as `fragmark ab` does, each build by "
-        "its "
-        "own program if it has one: pairs of "
-        "launches, `worse` only if fresh launches confirm it, outputs (status, bytes, fragments, "
+        "its own program if it has one: pairs of launches, `worse` only if fresh launches confirm "
+        "it, outputs (status, bytes, fragments, "
         "errors) exactly and first; a case with worse outputs is not timed. Of two folders of "
         "results it judges the outputs alone, since times of two runs decide nothing; "
         "`fragmark compare` shows them."
