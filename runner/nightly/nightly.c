@@ -113,9 +113,8 @@ static const struct argp argp = {
            "Exit codes: 0 quiet; 1 alarm: something is slower, takes more memory, is less right, "
            "or fails and did not; 2 usage or policy error; 3 nothing could be built or measured; "
            "4 cases failed in a first night; 5 the world stopped it, or another nightly is at "
-           "work: the "
-           "same command continues; 7 plugins or programs changed while it measured; 8 a damaged "
-           "history or baseline.",
+           "work: the same command continues; 7 plugins or programs changed while it measured; "
+           "8 a damaged history or baseline.",
 };
 
 /* Folders of the policy, and what stands over them. */
