@@ -38,7 +38,7 @@ typedef struct comparing {
 } comparing;
 
 /* Where nothing is said of scenes, axes or a spec: a case that a software rasteriser draws in a
- * fifth of a second. FM_NO_MEMORY. */
+ * fifth of a second. Where nothing is said of frames: 20 of a launch. FM_NO_MEMORY. */
 fm_status comparing_use_defaults(comparing_arguments *given, fm_error *err);
 /* Takes the build at `path` for a side: its plugins, and its own program, which is asked whether it
  * can measure for this one. FM_INVALID: has_foreign_program; it has a program and no shaders of the
