@@ -26,6 +26,13 @@ const char *finding_kind_name(fm_finding_kind kind)
     return kind_names[kind];
 }
 
+const char *finding_standing(const fm_finding *finding)
+{
+    if (finding->is_dismissed)
+        return ", not confirmed";
+    return finding->is_confirmed ? ", confirmed" : "";
+}
+
 /* The series whose last night is this case of this run: series end with it, by `until`. */
 static void find_series(fm_night_case *found, const fm_series_list *list, const char *run_id,
                         const fm_case_row *row)

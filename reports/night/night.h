@@ -22,12 +22,16 @@ const char *finding_kind_name(fm_finding_kind kind); /* "slower" */
 typedef struct fm_finding {
     fm_finding_kind kind;
     size_t case_index; /* in the run */
+    bool is_confirmed; /* by fresh launches; of exact findings nobody asks */
     bool is_dismissed; /* it was to be confirmed, and was not: no alarm */
     char text[320];    /* "bytes_allocated 4096 -> 8192 since 2026-01-31T01:00:00Z" */
 } fm_finding;
 
-/* Whether a finding that hangs on noise is confirmed, by fresh launches say. It may set the text.
- * This is the place for a gate: without one, what the series say stands. */
+/* ", confirmed", ", not confirmed" or "": behind the name of its kind. */
+const char *finding_standing(const fm_finding *finding);
+
+/* Whether a finding that hangs on noise stands after a look at fresh launches, say (gate.h). It may
+ * set the text and is_confirmed: what nobody could look at stands, too, unconfirmed. */
 typedef bool fm_night_confirm(fm_finding *finding, const fm_result_files *now, void *context);
 
 typedef struct fm_night_desc {
@@ -39,6 +43,8 @@ typedef struct fm_night_desc {
     double effect;             /* a step of this factor should be found in three nights; 0: 1.06 */
     fm_night_confirm *confirm; /* FM_FINDING_SLOWER alone is handed to it; NULL: nobody confirms */
     void *context;
+    const char *unconfirmed;   /* why findings on time are not: a sentence for the summary, if there
+                                  is   such a finding; NULL: that they are not, alone */
     const fm_text_list *notes; /* sentences for the summary: what was left out, say; may be NULL */
 } fm_night_desc;
 

@@ -13,8 +13,10 @@ static json_t *finding_json(const fm_finding *finding, const fm_result_files *no
     text_make_utf8(name);
     snprintf(text, sizeof text, "%s", finding->text);
     text_make_utf8(text);
-    return json_pack("{s:s, s:s, s:s, s:s, s:b}", "kind", finding_kind_name(finding->kind), "case",
-                     name, "case_id", row->id, "text", text, "dismissed", finding->is_dismissed);
+    return json_pack("{s:s, s:s, s:s, s:s, s:s, s:b, s:b}", "kind",
+                     finding_kind_name(finding->kind), "case", name, "case_id", row->id, "method",
+                     row->method, "text", text, "confirmed", finding->is_confirmed, "dismissed",
+                     finding->is_dismissed);
 }
 
 fm_status night_add_json(fm_text *json, const fm_night_result *night, fm_error *err)

@@ -3,8 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-static const double share_for_launches = 0.9; /* of the budget; the rest draws and judges */
-
 static uint32_t at_least(uint32_t value, uint32_t least)
 {
     return value > least ? value : least;
@@ -36,7 +34,7 @@ static fm_status choose_part(fm_night_state *night, const fm_policy *policy,
                              fm_error *err)
 {
     fm_text_list methods = { 0 };
-    const double seconds = share_for_launches * 60.0 * policy->budget_minutes;
+    const double seconds = policy_launch_share(policy) * policy_seconds(policy, night->built_s);
     if (past->seconds_per_round > 0)
         round_s = past->seconds_per_round * past->parts;
     const double rounds = fmin(floor(seconds / fmax(round_s, 1e-3)), policy->launches_most);

@@ -12,12 +12,48 @@
 enum { STATE_BYTES = 1 << 20, JUDGED_BYTES = 64 << 20 };
 
 static const char *const stage_names[] = {
-    [FM_NIGHT_MEASURES] = "measures",
-    [FM_NIGHT_JUDGES] = "judges",
-    [FM_NIGHT_DONE] = "done",
+    [FM_NIGHT_BUILDS] = "builds",     [FM_NIGHT_PLANS] = "plans",
+    [FM_NIGHT_MEASURES] = "measures", [FM_NIGHT_JUDGES] = "judges",
+    [FM_NIGHT_CONFIRMS] = "confirms", [FM_NIGHT_DONE] = "done",
     [FM_NIGHT_GIVEN_UP] = "given-up",
 };
 _Static_assert(sizeof stage_names / sizeof stage_names[0] == FM_NIGHT_STAGES, "one name a stage");
+
+static const char *const gate_names[] = {
+    [FM_NIGHT_GATE_NONE] = "none",
+    [FM_NIGHT_GATE_ANSWERED] = "answered",
+    [FM_NIGHT_GATE_NO_TIME] = "no-time",
+    [FM_NIGHT_GATE_FAILED] = "failed",
+};
+_Static_assert(sizeof gate_names / sizeof gate_names[0] == FM_NIGHT_GATES, "one name a state");
+
+/* Of building and confirming: nights of before have none of these. */
+static bool add_rest(json_t *json, const fm_night_state *state)
+{
+    json_t *rest = json_pack("{s:f, s:s, s:f, s:I}", "built_s", state->built_s, "gate",
+                             gate_names[state->gate], "confirmed_s", state->confirmed_s,
+                             "gate_attempt_s", (json_int_t)state->gate_attempt_s);
+    const bool is_added = rest != NULL && json_object_update(json, rest) == 0;
+    json_decref(rest);
+    return is_added;
+}
+
+static bool take_rest(fm_night_state *state, json_t *json)
+{
+    const char *gate = gate_names[FM_NIGHT_GATE_NONE];
+    json_int_t attempt_s = 0;
+    bool is_known = false;
+    if (json_unpack(json, "{s?F, s?s, s?F, s?I}", "built_s", &state->built_s, "gate", &gate,
+                    "confirmed_s", &state->confirmed_s, "gate_attempt_s", &attempt_s) != 0)
+        return false;
+    for (int i = 0; i < FM_NIGHT_GATES; i++)
+        if (strcmp(gate, gate_names[i]) == 0) {
+            state->gate = (fm_night_gate)i;
+            is_known = true;
+        }
+    state->gate_attempt_s = attempt_s;
+    return is_known && state->built_s >= 0 && state->confirmed_s >= 0;
+}
 
 static json_t *to_json(const fm_night_state *state)
 {
@@ -37,7 +73,7 @@ fm_status night_state_write(const fm_night_state *state, fm_error *err)
 {
     char path[FM_PATH_MAX_BYTES];
     json_t *json = to_json(state);
-    char *text = json != NULL ? json_dumps(json, JSON_INDENT(2)) : NULL;
+    char *text = json != NULL && add_rest(json, state) ? json_dumps(json, JSON_INDENT(2)) : NULL;
     json_decref(json);
     if (text == NULL)
         return fm_fail(err, FM_NO_MEMORY, "%s: no memory", state->folder);
@@ -117,7 +153,7 @@ fm_status night_state_read(fm_night_state *state, const char *folder, fm_error *
     json_t *json;
     *state = (fm_night_state){ 0 };
     fm_status status = load(&json, folder, "nightly.json", STATE_BYTES, err);
-    if (status == FM_OK && !take_fields(state, json))
+    if (status == FM_OK && !(take_fields(state, json) && take_rest(state, json)))
         status =
             fm_fail(err, FM_INVALID, "%s/nightly.json: damaged, or of another fragmark", folder);
     snprintf(state->folder, sizeof state->folder, "%s", folder);
@@ -128,6 +164,11 @@ fm_status night_state_read(fm_night_state *state, const char *folder, fm_error *
 void night_state_free(fm_night_state *state)
 {
     text_list_free(&state->methods);
+}
+
+bool night_is_open(const fm_night_state *state)
+{
+    return state->stage != FM_NIGHT_DONE && state->stage != FM_NIGHT_GIVEN_UP;
 }
 
 /* 20260131T010000Z */
@@ -220,13 +261,23 @@ fm_status night_past(fm_night_past *past, const char *root, const char *policy, 
     return status;
 }
 
-double night_measured_s(const fm_night_state *state)
+/* Of an attempt that was killed: up to the last line of its journal. */
+static double killed_s(const fm_night_state *state, int64_t attempt_s, const char *journal)
 {
     char path[FM_PATH_MAX_BYTES];
     struct stat info;
-    if (state->attempt_s == 0 ||
-        path_join(path, state->folder, "run/journal.jsonl", NULL) != FM_OK ||
-        stat(path, &info) != 0 || info.st_mtime < state->attempt_s)
-        return state->measured_s;
-    return state->measured_s + (double)(info.st_mtime - state->attempt_s);
+    if (attempt_s == 0 || path_join(path, state->folder, journal, NULL) != FM_OK ||
+        stat(path, &info) != 0 || info.st_mtime < attempt_s)
+        return 0.0;
+    return (double)(info.st_mtime - attempt_s);
+}
+
+double night_measured_s(const fm_night_state *state)
+{
+    return state->measured_s + killed_s(state, state->attempt_s, "run/journal.jsonl");
+}
+
+double night_confirmed_s(const fm_night_state *state)
+{
+    return state->confirmed_s + killed_s(state, state->gate_attempt_s, "gate/new/journal.jsonl");
 }

@@ -9,12 +9,25 @@
 #include "base/text.h"
 
 typedef enum fm_night_stage {
+    FM_NIGHT_BUILDS,   /* the policy's `build` is at work */
+    FM_NIGHT_PLANS,    /* it has ended well; what fits is not chosen yet */
     FM_NIGHT_MEASURES, /* NIGHT/run is begun */
-    FM_NIGHT_JUDGES,   /* it is measured, or its time is over */
+    FM_NIGHT_JUDGES,   /* it is measured, or its time is over; perhaps for the second time */
+    FM_NIGHT_CONFIRMS, /* NIGHT/gate is begun, for what was found slower */
     FM_NIGHT_DONE,
-    FM_NIGHT_GIVEN_UP, /* its rows were begun with other code, or another plan, than came after */
+    FM_NIGHT_GIVEN_UP, /* it was not built, or could not be planned; or its rows were begun with
+                          other code, or another plan, than came after */
     FM_NIGHT_STAGES
 } fm_night_stage;
+
+/* What a gate said of findings on time. */
+typedef enum fm_night_gate {
+    FM_NIGHT_GATE_NONE, /* it was not asked */
+    FM_NIGHT_GATE_ANSWERED,
+    FM_NIGHT_GATE_NO_TIME, /* the budget was spent before its end */
+    FM_NIGHT_GATE_FAILED,  /* it could not measure */
+    FM_NIGHT_GATES
+} fm_night_gate;
 
 typedef struct fm_night_state {
     char folder[FM_PATH_MAX_BYTES]; /* NIGHT: ROOT/20260131T010000Z */
@@ -28,7 +41,11 @@ typedef struct fm_night_state {
     double measured_s;    /* in attempts that ended, or were killed */
     int64_t attempt_s;    /* when the attempt began that runs, or was killed; 0: none */
     bool is_cut_off;      /* the time was over before all launches were */
-    int code;             /* with which the night ended; DONE alone */
+    double built_s;       /* what `build` took, in all attempts that ended */
+    fm_night_gate gate;
+    double confirmed_s;     /* in gates that ended, or were killed */
+    int64_t gate_attempt_s; /* as attempt_s, of the gate */
+    int code;               /* with which the night ended; DONE alone */
 } fm_night_state;
 
 /* Replaces nightly.json, as a whole. FM_IO, FM_NO_MEMORY. */
@@ -36,6 +53,9 @@ fm_status night_state_write(const fm_night_state *state, fm_error *err);
 /* FM_IO: there is none; FM_INVALID: damaged. The caller frees, after a failure too. */
 fm_status night_state_read(fm_night_state *state, const char *folder, fm_error *err);
 void night_state_free(fm_night_state *state);
+
+/* Whether there is something left to do. */
+bool night_is_open(const fm_night_state *state);
 
 /* The nights in ROOT, by name and so by time; none without it. FM_IO, FM_NO_MEMORY. */
 fm_status nights_list(fm_text_list *names, const char *root, fm_error *err);
@@ -57,5 +77,7 @@ uint64_t night_launches_ended(const fm_night_state *state);
 /* The time that was measured, with that of an attempt that was killed: up to the last line of its
  * journal. */
 double night_measured_s(const fm_night_state *state);
+/* The same of confirmations. */
+double night_confirmed_s(const fm_night_state *state);
 
 #endif

@@ -49,6 +49,8 @@ typedef struct fm_run_desc {
     FILE *talk;            /* for what is told also without progress: which rows of an earlier run
                               are forgotten, and why; NULL: nothing is */
     const char *worker;    /* executed as `WORKER worker REQUEST RESULT`; NULL: this program */
+    /* Of its sources, and that built it, for the manifest; NULL: this program's. */
+    const char *worker_commit, *worker_compiler;
     const char *const *figures;  /* ids that this run is for, for the report; ends with NULL */
     const fm_text *figure_cases; /* figures.csv: which case is for which of them; NULL: none */
 } fm_run_desc;

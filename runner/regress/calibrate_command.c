@@ -141,10 +141,11 @@ static fm_status open_both(comparing *of, calibrate_arguments *given, fm_error *
     if (status == FM_OK)
         status = plugin_list_get(&entry, &all, method, err);
     for (int side = 0; side < AB_SIDE_COUNT && status == FM_OK; side++) {
-        take_folder(of->folders[side], entry->path);
+        char folder[FM_PATH_MAX_BYTES];
+        take_folder(folder, entry->path);
         status = names_add(&of->methods[side], method, err);
         if (status == FM_OK)
-            status = comparing_find(of, (ab_side_name)side, err);
+            status = comparing_open(of, (ab_side_name)side, folder, err);
     }
     plugin_list_close(&all);
     if (status == FM_OK)
@@ -348,7 +349,7 @@ int regress_calibrate(const fm_cli *cli, int argc, char **argv)
     given.shared.looks[0] = given.pairs;
     const int code = calibrate(&of, &given, command);
     comparing_free(&of);
-    arguments_free(&given.shared.selection);
+    comparing_arguments_free(&given.shared);
     free(command);
     return code;
 }

@@ -2,7 +2,8 @@
 /* The protocol between the parent of a run and its workers: the only place that spells its fields.
  *
  * The parent executes `fragmark worker REQUEST.json ANSWER.json`. The request says what to do:
- *   { "job": "measure", "truth", "mesh" or "device",
+ *   { "protocol": 1,                        FM_PROTOCOL; a worker refuses another one
+ *     "job": "measure", "truth", "mesh" or "device",
  *     "plugin": "path of the method's .so",
  *     "floor": "path of the floor's .so, or empty",
  *     "common": "folder of the runner's GLSL",
@@ -60,6 +61,10 @@
 #include "model/settings.h"
 #include "truth/kept_file.h"
 
+/* Raised when a field above is added, goes, or means something else: workers of a build with
+ * another number are not asked (program/handshake.h). */
+enum { FM_PROTOCOL = 1 };
+
 /* What a worker is asked. All borrowed. */
 typedef struct fm_request {
     bool is_truth_job;
@@ -106,7 +111,8 @@ typedef struct fm_read_request {
     json_t *json;           /* holds the texts */
 } fm_read_request;
 
-/* FM_IO: no such file, or no JSON. FM_INVALID: an unknown key, an illegal value, too many options;
+/* FM_IO: no such file, or no JSON. FM_INVALID: another protocol, an unknown key, an illegal value,
+ * too many options;
  * FM_NO_MEMORY.
  * request_free also after a failure. */
 fm_status request_read(fm_read_request *read, const char *path, fm_error *err);

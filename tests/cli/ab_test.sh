@@ -86,6 +86,42 @@ says '2 cases: 1 worse'
 want 2 gate "$work/base" "$work/broken" --method kplus-heap "${small[@]}" --pairs 6 -o "$work/refused"
 says 'is refused'
 
+# A build that has its own program is measured by it: workers of this one say that they need more memory.
+mkdir -p "$work/own/methods"
+cp -rL "$methods/kplus-heap" "$methods/kplus-array" "$methods/common" "$work/own/methods/"
+cat >"$work/own/fragmark" <<END
+#!/bin/sh
+[ "\$1" = worker ] || exec "$program" "\$@"
+"$program" "\$@" || exit
+sed -i 's/"bytes_allocated": /&9/' "\$3"
+END
+chmod +x "$work/own/fragmark"
+want 1 ab kplus-heap@"$work/build" kplus-heap@"$work/own" "${small[@]}" --pairs 6 -o "$work/by-own"
+grep '^worse .*bytes_allocated \([0-9]*\) -> 9\1' "$work/said" >/dev/null || fail "the other program is not seen: $(cat "$work/said")"
+grep -qF "\"program\": \"$work/own/fragmark\"" "$work/by-own/new/manifest.json" || fail "new/manifest.json does not name its program"
+grep -qF "\"program\": \"$(realpath "$program")\"" "$work/by-own/base/manifest.json" || fail "base/manifest.json does not name this program"
+want 1 gate "$work/build" "$work/own" "${small[@]}" --pairs 6 -o "$work/gate-own"
+want 0 ab kplus-heap@"$work/build" kplus-heap@"$work/own" "${small[@]}" --pairs 6 --program this -o "$work/by-this"
+says '1 case: 0 worse'
+want 2 ab kplus-heap@"$work/build" kplus-heap@"$work/own" "${small[@]}" --program that -o "$work/none"
+# One of another version measures nothing.
+version=$("$program" --version | sed 's/.* //')
+other=$(echo "$version" | tr 0-8 1-9)
+mkdir -p "$work/foreign"
+cp -rL "$work/own/methods" "$work/foreign/"
+LC_ALL=C sed "s/${version//./\\.}/$other/g" "$program" >"$work/foreign/fragmark"
+chmod +x "$work/foreign/fragmark"
+want 7 gate "$work/build" "$work/foreign" "${small[@]}" -o "$work/not-measured"
+says "it is fragmark $other, and not $version"
+says "$work/foreign/fragmark cannot measure for"
+[ ! -e "$work/not-measured" ] || fail "something was measured by another version"
+want 0 gate "$work/build" "$work/foreign" "${small[@]}" --pairs 6 --program this -o "$work/is-measured"
+# Nor does one whose shaders are not there.
+rm -r "$work/foreign/methods/common"
+cp "$work/own/fragmark" "$work/foreign/"
+want 2 gate "$work/build" "$work/foreign" "${small[@]}" -o "$work/none"
+says 'has no common/prelude.glsl'
+
 # Killed, then again: what ended stays.
 "$program" ab kplus-heap@"$work/base" kplus-heap@"$work/build" "${small[@]}" --pairs 80 -o "$work/killed" >/dev/null 2>&1 &
 parent=$!

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "history/record.h"
+#include "night/gate.h"
 #include "night/night.h"
 
 /* Nights in a history of their own; the last one stays open, and is judged. */
@@ -219,6 +220,81 @@ static void an_alarm_on_time_may_be_dismissed_by_who_measures_again(void **state
     end(&kit);
 }
 
+/* What is said of a step once a gate has this row of its case; row NULL: none. */
+static void judge_step_with_gate(kit_night *kit, const char *row)
+{
+    char path[96], csv[512];
+    fm_gate_answers answers;
+    snprintf(path, sizeof path, "%s/ab.csv", kit->directory);
+    snprintf(csv, sizeof csv, "schema,case_id_new,verdict,time_shift,cpu_shift,why\n%s\n",
+             row != NULL ? row : "1,c9,same,1,,");
+    assert_int_equal(text_write_file(path, csv, strlen(csv), NULL), FM_OK);
+    assert_int_equal(gate_answers_open(&answers, path, &kit->err), FM_OK);
+    kit->desc.confirm = gate_confirm;
+    kit->desc.context = &answers;
+    judge(kit);
+    gate_answers_close(&answers);
+}
+
+static void a_gate_confirms_dismisses_or_leaves_an_alarm(void **state)
+{
+    static const struct {
+        const char *row, *words, *standing;
+        size_t alarms;
+    } cases[] = {
+        { "1,c0,worse,1.5,1.25,confirmed on 20 fresh pairs",
+          "; a gate says worse, time +50.0 %, cpu +25.0 %: confirmed on 20 fresh pairs",
+          ", confirmed", 1 },
+        { "1,c0,same,1.001,,", "; a gate says same, time +0.1 %", ", not confirmed", 0 },
+        { "1,c0,unclear,1.2,,60 pairs might decide", "; a gate says unclear", ", not confirmed",
+          0 },
+        { "1,c0,unmeasured,,,base: crash", "; a gate could not measure it", "", 1 },
+        { NULL, "; a gate could not measure it", "", 1 },
+    };
+    kit_night kit;
+    (void)state;
+    begin(&kit);
+    add_step(&kit);
+    kit.desc.unconfirmed = "Nobody knows.";
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        fm_text markdown = { 0 }, json = { 0 };
+        judge_step_with_gate(&kit, cases[i].row);
+        assert_int_equal(kit.night.count, 1);
+        assert_int_equal(kit.night.alarms, cases[i].alarms);
+        assert_non_null(strstr(kit.night.findings[0].text, cases[i].words));
+        assert_string_equal(finding_standing(&kit.night.findings[0]), cases[i].standing);
+        night_add_markdown(&markdown, &kit.night);
+        assert_int_equal(night_add_json(&json, &kit.night, &kit.err), FM_OK);
+        assert_int_equal(strstr(markdown.bytes, "Nobody knows.") != NULL,
+                         cases[i].standing[0] == '\0');
+        assert_int_equal(strstr(json.bytes, "\"confirmed\": true") != NULL,
+                         strcmp(cases[i].standing, ", confirmed") == 0);
+        assert_non_null(strstr(json.bytes, "\"method\": \""));
+        text_free(&json);
+        text_free(&markdown);
+        night_free(&kit.night);
+    }
+    kit.desc.confirm = NULL;
+    judge(&kit); /* what end() frees */
+    end(&kit);
+}
+
+static void a_file_that_is_no_gates_is_refused(void **state)
+{
+    char path[] = "/tmp/fragmark-gate-XXXXXX";
+    fm_gate_answers answers;
+    fm_error err = { 0 };
+    (void)state;
+    close(mkstemp(path));
+    assert_int_equal(text_write_file(path, "schema,verdict\n1,worse\n", 23, NULL), FM_OK);
+    assert_int_equal(gate_answers_open(&answers, path, &err), FM_INVALID);
+    assert_non_null(strstr(err.message, "case_id_new"));
+    gate_answers_close(&answers);
+    unlink(path);
+    assert_int_equal(gate_answers_open(&answers, path, &err), FM_IO);
+    gate_answers_close(&answers);
+}
+
 /* Two launches of 30 and 33 are known to 4.8 %; for a step of 6 % it is to be 1.6 %. */
 static void the_launches_that_are_needed_follow_from_the_noise(void **state)
 {
@@ -285,6 +361,8 @@ int main(void)
         cmocka_unit_test(a_night_that_is_not_the_last_is_judged_by_those_before_it),
         cmocka_unit_test(a_step_is_found_again_after_later_nights),
         cmocka_unit_test(an_alarm_on_time_may_be_dismissed_by_who_measures_again),
+        cmocka_unit_test(a_gate_confirms_dismisses_or_leaves_an_alarm),
+        cmocka_unit_test(a_file_that_is_no_gates_is_refused),
         cmocka_unit_test(the_launches_that_are_needed_follow_from_the_noise),
         cmocka_unit_test(a_baseline_is_held_against_each_night),
         cmocka_unit_test(what_is_written_names_the_finding_and_escapes_it),

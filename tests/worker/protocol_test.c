@@ -101,7 +101,8 @@ static void request_with_very_many_known_images_is_read(void **state)
 }
 
 #define REQUEST_KNOWING(known, job, launch, check, settings, options)                              \
-    "{\"job\": " job ", \"plugin\": \"\", \"floor\": \"\", \"common\": \"\", \"device\": \"\", "   \
+    "{\"protocol\": 1, \"job\": " job ", \"plugin\": \"\", \"floor\": \"\", \"common\": \"\", "    \
+    "\"device\": \"\", "                                                                           \
     "\"validation\": false, \"no_timers\": false, \"feed\": \"\", \"settings\": {" settings        \
     "}, \"options\": {" options "}, \"truth\": \"\", \"launch\": " launch ", \"check\": " check    \
     ", \"image\": \"\", \"range\": \"\", \"known_images\": [" known                                \
@@ -130,8 +131,11 @@ static void request_read_refuses_what_is_no_request(void **state)
         const char *text, *words;
     } rows[] = {
         { "[", ":1: " },
-        { "[]", "'job' is missing" },
-        { "{\"job\": \"truth\"}", "'plugin' is missing" },
+        { "[]", "no request of protocol 1" },
+        { "{\"job\": \"truth\"}", "no request of protocol 1" },
+        { "{\"protocol\": 2, \"job\": \"truth\"}", "no request of protocol 1" },
+        { "{\"protocol\": 1}", "'job' is missing" },
+        { "{\"protocol\": 1, \"job\": \"truth\"}", "'plugin' is missing" },
         { REQUEST("\"sleep\"", "0", "true", "", ""), "'job' is none that is known" },
         { REQUEST("7", "0", "true", "", ""), "'job' is missing or of another kind" },
         { REQUEST("\"mesh\"", "\"0\"", "true", "", ""), "'launch' is missing or of another kind" },
