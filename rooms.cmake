@@ -3,7 +3,7 @@
 set(FM_RUNNER_ROOMS base decide image process code model mesh scene generators truth plugin describe bound spirv device vulkan
   osmesa dummy simulator stage instance capture calibrate worker plan results parent child bundle merge pack ab cli inspect
   share nightly regress)
-set(FM_REPORT_ROOMS base decide image model read claims tradeoff stability compare baseline history night draw page)
+set(FM_REPORT_ROOMS base decide image model read claims tradeoff stability compare baseline history night draw roofline page)
 
 # fm_add_room(NAME SOURCES file... [ROOMS room...] [LIBRARIES target...]): the static library
 # fm_NAME of one room, which links the rooms below it that it uses. Includes name a room's folder
