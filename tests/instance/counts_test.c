@@ -45,9 +45,10 @@ static void expect_rows(fm_device *device, const char *texts, const expected *ro
  *
  * kplus-array, k = 2. clear: counter (4) and slot 0 (8) are stored. store, both times: the cull
  * loads the depth of slot 0 (4), the lock is exchanged (4 and 4, an atomic) and released (4), the
- * counter is loaded and stored (4 and 4), the fragment is stored (8). The second one also compares
- * with slot 0 (4) and slot 1 (4). resolve loads the counter (4) and two fragments (16).
- *   loaded   2 (4 + 4 + 4) + 8 + 20 = 52     stored   12 + 2 (4 + 4 + 4 + 8) = 52
+ * depth of slot 0 is loaded again (4), the counter is loaded and stored (4 and 4), the fragment is
+ * stored (8). The second one also compares with slot 1 (8). resolve loads the counter (4) and two
+ * fragments (16).
+ *   loaded   2 (4 + 4 + 4 + 4) + 8 + 20 = 60   stored   12 + 2 (4 + 4 + 4 + 8) = 52
  *
  * ab-array. clear: the counter (4). store: an atomic on it (4 and 4), the fragment (8). resolve as
  * above.
@@ -61,9 +62,9 @@ static void one_pixel_of_two_layers_is_as_by_hand(void **state)
 {
     static const expected rows[] = {
         { "null", "", 0, 0, 0 },
-        { "kplus-array", "k=2 lock=spin", 52, 52, 2 },
-        { "kplus-array", "k=2 lock=spin layout=layer", 52, 52, 2 },
-        { "kplus-array", "k=2 lock=spin buffers=address", 52, 52, 2 },
+        { "kplus-array", "k=2 lock=spin", 60, 52, 2 },
+        { "kplus-array", "k=2 lock=spin layout=layer", 60, 52, 2 },
+        { "kplus-array", "k=2 lock=spin buffers=address", 60, 52, 2 },
         { "ab-array", "", 28, 28, 2 },
         { "ab-array", "buffers=address", 28, 28, 2 },
         { "ab-ll", "", 44, 52, 4 },
@@ -76,7 +77,7 @@ static void one_pixel_of_two_layers_is_as_by_hand(void **state)
 static void two_pixels_are_twice_one(void **state)
 {
     static const expected rows[] = {
-        { "kplus-array", "k=2 lock=spin", 104, 104, 4 },
+        { "kplus-array", "k=2 lock=spin", 120, 104, 4 },
         { "ab-array", "", 56, 56, 4 },
         { "ab-ll", "", 88, 96, 8 },
     };
