@@ -93,6 +93,8 @@ static const struct argp argp = {
         "500 "
         "gates whose pairs are drawn from those that were measured.\n"
         "\n"
+        "`fragmark calibrate device` measures what a device can do at most (its own --help).\n"
+        "\n"
         "Calibrate each device once, when the machine does what it does at night, and again when "
         "the machine has changed. Of several cases on one device the noisiest is kept: the one "
         "with "
@@ -341,8 +343,13 @@ static int calibrate(comparing *of, calibrate_arguments *given, const char *comm
 
 int regress_calibrate(const fm_cli *cli, int argc, char **argv)
 {
+    char device_title[] = "fragmark calibrate device";
     calibrate_arguments given = { .shared.selection = { .cli = cli, .no_images = true },
                                   .pairs = PAIRS };
+    if (argc > 1 && strcmp(argv[1], "device") == 0) {
+        argv[1] = device_title;
+        return regress_calibrate_device(cli, argc - 1, argv + 1);
+    }
     comparing of = { .given = &given.shared };
     char *command = cli_command_text(argc, argv);
     argp_parse(&argp, argc, argv, 0, NULL, &given);

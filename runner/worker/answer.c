@@ -193,6 +193,25 @@ static void add_checked(json_t *metrics, const fm_measurement *m, const fm_truth
     answer_set_number(metrics, FM_METRIC_TRUNCATION_RMSE, m->truncation_rmse);
 }
 
+/* Empty where nothing was counted. */
+static void add_accesses(json_t *metrics, const fm_measurement *m)
+{
+    char name[96];
+    const fm_accesses all = measure_accesses(m);
+    if (m->accesses_count == 0)
+        return;
+    answer_set_count(metrics, FM_METRIC_BYTES_MOVED, all.loaded + all.stored);
+    answer_set_count(metrics, FM_METRIC_ATOMICS, all.atomics);
+    answer_set_count(metrics, FM_METRIC_ACCESSES_OUTSIDE, all.outside);
+    for (size_t i = 0; i < m->accesses_count; i++) {
+        const fm_accesses *counts = &m->accesses[i].counts;
+        snprintf(name, sizeof name, "moved.%s_b", m->accesses[i].name);
+        if (counts->loaded + counts->stored > 0)
+            json_object_set_new(metrics, name,
+                                json_integer((json_int_t)(counts->loaded + counts->stored)));
+    }
+}
+
 static void add_metrics(json_t *answer, const fm_answer_desc *desc)
 {
     const fm_measurement *m = desc->measurement;
@@ -212,6 +231,7 @@ static void add_metrics(json_t *answer, const fm_answer_desc *desc)
     if (m->is_checked) {
         add_checked(metrics, m, desc->truth);
         add_culled(metrics, desc);
+        add_accesses(metrics, m);
     }
     for (uint32_t i = 0; i < m->sample_count; i++)
         add_frame(samples, i, &m->samples[i], desc);

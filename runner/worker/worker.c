@@ -331,8 +331,11 @@ static fm_status open_truth(launch_job *job)
 
 static void add_notes(launch_job *job)
 {
+    char accesses[VERDICT_ACCESSES_BYTES];
     if (job->truth->fragment_count == 0)
         note(job, "%s", FM_NOTHING_DRAWN);
+    if (verdict_accesses(accesses, &job->measurement))
+        note(job, "%s", accesses);
     if (job->measurement.is_long)
         note(job, "frames over 2 s: %u samples a launch, the interval is wide",
              job->measurement.sample_count);

@@ -109,5 +109,6 @@ void vulkan_caps_find(vulkan *self)
      * memory barriers in divergent compute code break it. */
     caps->needs_helper_guard = !is_lavapipe;
     caps->needs_lock_barriers = !is_lavapipe;
+    caps->counts_accesses = true;
     caps->loop_limit = is_lavapipe ? LAVAPIPE_LOOP_LIMIT : 0;
 }

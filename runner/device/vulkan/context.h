@@ -218,9 +218,15 @@ void vulkan_image_destroy(fm_device *device, fm_image_resource *image);
 /* shader.c: the compiler, for as long as the device is open. */
 fm_status vulkan_compiler_create(vulkan *self, fm_error *err);
 void vulkan_compiler_destroy(vulkan *self); /* also if none was created */
-/* One stage to SPIR-V and a module. name is the pipeline's. */
-fm_status vulkan_shader_create(VkShaderModule *module, const vulkan *self, const char *name,
-                               VkShaderStageFlagBits stage, const char *source, fm_error *err);
+typedef struct vulkan_shader_desc {
+    const char *name; /* the pipeline's */
+    VkShaderStageFlagBits stage;
+    const char *source;             /* GLSL */
+    const spirv_counting *counting; /* NULL: the shader stays as it is */
+} vulkan_shader_desc;
+/* One stage to SPIR-V and a module. */
+fm_status vulkan_shader_create(VkShaderModule *module, const vulkan *self,
+                               const vulkan_shader_desc *desc, fm_error *err);
 
 /* state.c: fixed-function state. */
 VkPipelineDepthStencilStateCreateInfo vulkan_depth_stencil(const fm_pipeline_desc *desc);

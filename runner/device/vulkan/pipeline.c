@@ -123,8 +123,11 @@ static fm_status create_compute(fm_pipeline *pipeline, const vulkan *self,
                                 const fm_pipeline_desc *desc, fm_error *err)
 {
     VkShaderModule module = VK_NULL_HANDLE;
-    const fm_status status = vulkan_shader_create(&module, self, desc->name,
-                                                  VK_SHADER_STAGE_COMPUTE_BIT, desc->compute, err);
+    const vulkan_shader_desc shader = { .name = desc->name,
+                                        .stage = VK_SHADER_STAGE_COMPUTE_BIT,
+                                        .source = desc->compute,
+                                        .counting = desc->counting };
+    const fm_status status = vulkan_shader_create(&module, self, &shader, err);
     if (status != FM_OK)
         return status;
     const VkComputePipelineCreateInfo info = {
@@ -250,11 +253,18 @@ static fm_status create_graphics(fm_pipeline *pipeline, const vulkan *self,
     graphics_parts parts;
     fm_status status = check_targets(self, desc, err);
     if (status == FM_OK)
-        status = vulkan_shader_create(&vertex, self, desc->name, VK_SHADER_STAGE_VERTEX_BIT,
-                                      desc->vertex, err);
+        status = vulkan_shader_create(&vertex, self,
+                                      &(vulkan_shader_desc){ .name = desc->name,
+                                                             .stage = VK_SHADER_STAGE_VERTEX_BIT,
+                                                             .source = desc->vertex },
+                                      err);
     if (status == FM_OK)
-        status = vulkan_shader_create(&fragment, self, desc->name, VK_SHADER_STAGE_FRAGMENT_BIT,
-                                      desc->fragment, err);
+        status = vulkan_shader_create(&fragment, self,
+                                      &(vulkan_shader_desc){ .name = desc->name,
+                                                             .stage = VK_SHADER_STAGE_FRAGMENT_BIT,
+                                                             .source = desc->fragment,
+                                                             .counting = desc->counting },
+                                      err);
     if (status != FM_OK)
         goto out;
     const VkPipelineShaderStageCreateInfo stages[] = {

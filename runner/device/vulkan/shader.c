@@ -1,5 +1,6 @@
 #include <shaderc/shaderc.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "context.h"
@@ -36,19 +37,37 @@ static unsigned find_error_line(const char *log)
 }
 
 static fm_status create_module(VkShaderModule *module, const vulkan *self, const char *name,
-                               shaderc_compilation_result_t spirv, fm_error *err)
+                               const uint32_t *words, size_t count, fm_error *err)
 {
     const VkShaderModuleCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-        .codeSize = shaderc_result_get_length(spirv),
-        /* shaderc promises words: its bytes are aligned for them. */
-        .pCode = (const uint32_t *)(const void *)shaderc_result_get_bytes(spirv),
+        .codeSize = count * sizeof *words,
+        .pCode = words,
     };
     const VkResult result = vkCreateShaderModule(self->device, &info, NULL, module);
     if (result == VK_SUCCESS)
         return FM_OK;
     *module = VK_NULL_HANDLE;
     return vulkan_fail(err, result, "%s: shader module", name);
+}
+
+/* The shader as it was compiled, or as it counts its accesses. */
+static fm_status use_words(VkShaderModule *module, const vulkan *self,
+                           const vulkan_shader_desc *desc, const uint32_t *words, size_t count,
+                           fm_error *err)
+{
+    uint32_t *counted = NULL;
+    size_t counted_words = 0;
+    if (desc->counting == NULL)
+        return create_module(module, self, desc->name, words, count, err);
+    fm_status status =
+        spirv_count_accesses(&counted, &counted_words, words, count, desc->counting, err);
+    if (status == FM_OK)
+        status = create_module(module, self, desc->name, counted, counted_words, err);
+    else
+        fm_error_prefix(err, "%s", desc->name);
+    free(counted);
+    return status;
 }
 
 fm_status vulkan_compiler_create(vulkan *self, fm_error *err)
@@ -65,16 +84,17 @@ void vulkan_compiler_destroy(vulkan *self)
 }
 
 /* SPIR-V is not optimised: drivers do that themselves, and compiling takes half the time. */
-fm_status vulkan_shader_create(VkShaderModule *module, const vulkan *self, const char *name,
-                               VkShaderStageFlagBits stage, const char *source, fm_error *err)
+fm_status vulkan_shader_create(VkShaderModule *module, const vulkan *self,
+                               const vulkan_shader_desc *desc, fm_error *err)
 {
     fm_status status = FM_OK;
-    const stage_traits traits = traits_of(stage);
+    const char *source = desc->source;
+    const stage_traits traits = traits_of(desc->stage);
     shaderc_compilation_result_t result = NULL;
     shaderc_compile_options_t options = shaderc_compile_options_initialize();
     *module = VK_NULL_HANDLE;
     if (options == NULL) {
-        status = fm_fail(err, FM_NO_MEMORY, "%s: no memory to compile shaders", name);
+        status = fm_fail(err, FM_NO_MEMORY, "%s: no memory to compile shaders", desc->name);
         goto out;
     }
     shaderc_compile_options_set_target_env(options, shaderc_target_env_vulkan,
@@ -85,14 +105,17 @@ fm_status vulkan_shader_create(VkShaderModule *module, const vulkan *self, const
     if (result == NULL ||
         shaderc_result_get_compilation_status(result) != shaderc_compilation_status_success) {
         const char *log = result != NULL ? shaderc_result_get_error_message(result) : "";
-        status = device_fail_shader(err, &(fm_shader_fault){ .pipeline = name,
+        status = device_fail_shader(err, &(fm_shader_fault){ .pipeline = desc->name,
                                                              .stage = traits.name,
                                                              .source = source,
                                                              .log = log,
                                                              .line = find_error_line(log) });
         goto out;
     }
-    status = create_module(module, self, name, result, err);
+    /* shaderc promises words: its bytes are aligned for them. */
+    status = use_words(module, self, desc,
+                       (const uint32_t *)(const void *)shaderc_result_get_bytes(result),
+                       shaderc_result_get_length(result) / sizeof(uint32_t), err);
 out:
     shaderc_result_release(result);
     shaderc_compile_options_release(options);
