@@ -2,8 +2,8 @@
  *
  * The room bound holds these numbers, their file, and what follows from them for a case (bound.h).
  * It opens no device: calibrate/ measures. */
-#ifndef FM_LIMITS_H
-#define FM_LIMITS_H
+#ifndef FM_BOUND_LIMITS_H
+#define FM_BOUND_LIMITS_H
 
 #include <jansson.h>
 #include <stdint.h>
