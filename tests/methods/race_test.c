@@ -19,14 +19,19 @@ static fm_device *lavapipe_of(void **state)
     return device;
 }
 
-static uint64_t wrong_pixels(kit_scene *scene, const char *method, uint32_t feed)
+static uint64_t wrong_pixels_of(kit_scene *scene, const kit_way *way)
 {
     fm_measurement m;
-    assert_true(kit_measure(&m, scene, &(kit_way){ method, feed, "k=8" }));
+    assert_true(kit_measure(&m, scene, way));
     const uint64_t wrong = m.check.wrong_pixels;
     assert_int_equal(m.lost, 0);
     measurement_free(&m);
     return wrong;
+}
+
+static uint64_t wrong_pixels(kit_scene *scene, const char *method, uint32_t feed)
+{
+    return wrong_pixels_of(scene, &(kit_way){ method, feed, "k=8" });
 }
 
 static void k_buffers_err_in_most_pixels_when_neighbours_contend(void **state)
@@ -62,6 +67,25 @@ static void synchronised_methods_are_exact_when_neighbours_contend(void **state)
     kit_close(&kit);
 }
 
+/* Other chains are under way while one looks for its slot. */
+static void chains_may_begin_anywhere_when_neighbours_contend(void **state)
+{
+    static const char *const methods[] = { "kb-mdt32", "kb-mdt64" };
+    static const char *const starts[] = { "k=17 start=front", "k=17 start=half",
+                                          "k=17 start=binary" };
+    enum { STARTS = sizeof starts / sizeof starts[0] };
+    scene_kit kit;
+    kit_scene scene;
+    kit_open(&kit, lavapipe_of(state));
+    kit_scene_open(&scene, &kit, SCENE);
+    for (size_t i = 0; i < 2 * STARTS; i++) {
+        const kit_way way = { methods[i / STARTS], FM_FEED_COMPUTE_ADJACENT, starts[i % STARTS] };
+        assert_int_equal(wrong_pixels_of(&scene, &way), 0);
+    }
+    kit_scene_close(&scene);
+    kit_close(&kit);
+}
+
 static void no_method_errs_on_raster(void **state)
 {
     static const char *const methods[] = { "kb", "kplus-array", "kplus-heap", "kb-multi" };
@@ -82,6 +106,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(k_buffers_err_in_most_pixels_when_neighbours_contend,
                                         open_vulkan, close_opened),
         cmocka_unit_test_setup_teardown(synchronised_methods_are_exact_when_neighbours_contend,
+                                        open_vulkan, close_opened),
+        cmocka_unit_test_setup_teardown(chains_may_begin_anywhere_when_neighbours_contend,
                                         open_vulkan, close_opened),
         cmocka_unit_test_setup_teardown(no_method_errs_on_raster, open_vulkan, close_opened),
     };
