@@ -54,8 +54,9 @@ static void k_buffers_err_in_most_pixels_when_neighbours_contend(void **state)
 
 static void synchronised_methods_are_exact_when_neighbours_contend(void **state)
 {
-    static const char *const methods[] = { "kplus-array", "kplus-heap", "kb-ps",   "kb-mdt64",
-                                           "kb-mdt32",    "kb-ll",      "kb-multi" };
+    static const char *const methods[] = { "kplus-array", "kplus-heap", "kb-ps",
+                                           "kb-mdt64",    "kb-mdt32",   "kb-ll",
+                                           "kb-multi",    "loop32",     "loop64" };
     scene_kit kit;
     kit_scene scene;
     kit_open(&kit, lavapipe_of(state));
@@ -88,7 +89,8 @@ static void chains_may_begin_anywhere_when_neighbours_contend(void **state)
 
 static void no_method_errs_on_raster(void **state)
 {
-    static const char *const methods[] = { "kb", "kplus-array", "kplus-heap", "kb-multi" };
+    static const char *const methods[] = { "kb",       "kplus-array", "kplus-heap",
+                                           "kb-multi", "loop32",      "loop64" };
     scene_kit kit;
     kit_scene scene;
     kit_open(&kit, lavapipe_of(state));
