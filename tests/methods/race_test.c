@@ -89,8 +89,7 @@ static void chains_may_begin_anywhere_when_neighbours_contend(void **state)
 
 static void no_method_errs_on_raster(void **state)
 {
-    static const char *const methods[] = { "kb",       "kplus-array", "kplus-heap",
-                                           "kb-multi", "loop32",      "loop64" };
+    static const char *const methods[] = { "kb", "kplus-array", "kplus-heap", "kb-multi" };
     scene_kit kit;
     kit_scene scene;
     kit_open(&kit, lavapipe_of(state));
