@@ -6,9 +6,10 @@
 #
 # The program has to find the opponents. From a build folder:
 #   FRAGMARK_PLUGIN_PATH=build/bench/tests/peers tests/peers/compare.sh build/bench/fragmark OUT
-# A bundle takes them in; then this folder goes along, for the two scripts:
-#   build/bench/fragmark bundle DIR --plugin-dir build/bench/tests/peers && cp -rL tests/peers DIR/
-#   DIR/peers/compare.sh DIR/bin/fragmark OUT        on the other machine
+# A bundle takes them in, and finds them by itself; the two scripts go along:
+#   build/bench/fragmark bundle DIR --plugin-dir build/bench/tests/peers
+#   cp tests/peers/compare.sh tests/peers/ratios.awk DIR/
+#   DIR/compare.sh DIR/bin/fragmark OUT        on the other machine
 # PEERS_QUICK=1 is for trying the script: small pictures and meshes, few launches, no times worth reading.
 set -euo pipefail
 program=${1:?usage: compare.sh PROGRAM OUT [OPTION...]}
