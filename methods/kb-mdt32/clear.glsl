@@ -1,9 +1,12 @@
-#include "kb-mdt32/key.glsl"
+#include "kb-mdt32/sink.glsl"
+#include "kb-mdt32/put_colour.glsl"
 
 void clear(uvec2 pixel)
 {
     FM_LOOP for (uint i = 0u; i < K; ++i) {
-        keys[array_slot(pixel, i, K)] = EMPTY;
-        colours[array_slot(pixel, i, K)] = 0u;
+        put_key(pixel, i, EMPTY);
+#if !EQUAL_DEPTHS_MERGE
+        put_colour(pixel, i, 0u); // of equal keys only the first slot gets one
+#endif
     }
 }

@@ -2,11 +2,19 @@
 //   exact      the float's bits
 //   published  uint((z - near) / far * (2^32 - 1)) in float arithmetic, as the k+-buffer paper's code: the
 //              division merges some neighbouring floats, and what lies before `near` becomes 0
+// A method without this option has the float's bits.
 #include "common/array.glsl"
 
+#define KEY uint
 const uint EMPTY = 0xFFFFFFFFu;
 
-#if DEPTH_BITS == DEPTH_BITS_PUBLISHED
+uint key_at(uvec2 pixel, uint i)
+{
+    return keys[array_slot(pixel, i, K)];
+}
+
+#if defined(DEPTH_BITS_PUBLISHED) && DEPTH_BITS == DEPTH_BITS_PUBLISHED
+#define EQUAL_DEPTHS_MERGE 0
 const float NEAR = 0.001, FAR = 50.0, SCALE = 4294967295.0; // its planes unless fitted to the scene
 
 // Every pass must find the same key, so no compiler may round otherwise in one of them: precise. At
@@ -27,6 +35,7 @@ float depth_of(uint key)
     return uintBitsToFloat(bits);
 }
 #else
+#define EQUAL_DEPTHS_MERGE 1 // of equal depths one is kept, and every slot gets a colour
 uint key_of(float depth)
 {
     return fm_pack(depth, 0u).x;

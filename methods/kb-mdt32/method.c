@@ -7,7 +7,7 @@ const fm_method_desc fm_method = {
     .title = "KB-MDT",
     .citation = "Maule, Comba, Torchelsen, Bastos 2013, Hybrid Transparency, "
                 "doi:10.1145/2448196.2448212",
-    .version = "1",
+    .version = "2",
     .traits = FM_TRAIT_BOUNDED | FM_TRAIT_LOSES_TIES,
     .keeps = FM_KEEPS_K_NEAREST,
     .family = FM_FAMILY_K_BUFFER,
@@ -15,7 +15,9 @@ const fm_method_desc fm_method = {
     .options = { { .name = "depth_bits", .values = { "exact", "published" },
                    .help = "the float's bits, or the k+-buffer paper's quantisation" },
                  { .name = "layout", .values = { "pixel", "layer", "tile" },
-                   .help = "side by side: a pixel's, the i-th of all pixels, or of a tile" } },
+                   .help = "side by side: a pixel's, the i-th of all pixels, or of a tile" },
+                 { .name = "start", .values = { "auto", "front", "half", "binary" },
+                   .help = "slot that a chain begins at: the first, by a look at k/2, searched" } },
     .resources = {
         { .name = "keys", .extent = { .per_pixel_k = 1 }, .used = { .per_kept = 1 } },
         { .name = "colours", .extent = { .per_pixel_k = 1 }, .used = { .per_kept = 1 } },

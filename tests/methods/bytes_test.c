@@ -187,6 +187,8 @@ static const struct formula {
     { "kb-multi", flagged_k_buffer },
     { "kb-ll", sorted_list },
     { "kb-mdt32", k_buffer },
+    { "loop32", k_buffer },
+    { "loop64", k_buffer },
     { "kb-ps", locked_k_buffer },
     { "ab-array", a_buffer },
     { "z-buffer", z_buffer },
