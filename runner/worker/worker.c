@@ -37,6 +37,7 @@ typedef struct launch_job {
     fm_stage *stage;
     char hull[FM_PATH_MAX_BYTES + 8]; /* beside the truth, for later launches of the scene */
     fm_measurement measurement;
+    launch_parts parts;
     fm_technique_outcome sequence; /* of a technique */
     fm_code code;                  /* what was loaded and read */
     fm_error error;
@@ -292,6 +293,7 @@ static fm_status measure(launch_job *job)
                                    .check = job->request->check,
                                    .known_images = job->request->known_images,
                                    .known_count = job->request->known_count,
+                                   .parts = &job->parts,
                                    .keep = job->request->keep[KEPT_FRAGMENTS] };
     return measure_case(&job->measurement, &desc, &job->error);
 }
@@ -347,6 +349,7 @@ static fm_status measure_job(launch_job *job)
         status = read_feed(job);
     if (status == FM_OK)
         status = open_device(job);
+    parts_enter(&job->parts, PART_SCENE);
     if (status == FM_OK)
         status = open_scene(job);
     if (status == FM_OK)
@@ -359,6 +362,7 @@ static fm_status measure_job(launch_job *job)
         job->stage->hull_cache = job->hull;
         status = run_method(job);
     }
+    parts_enter(&job->parts, PART_END);
     if (status == FM_OK)
         status = truth_keep(job->request->keep[KEPT_TRUTH], job->request->truth, job->truth,
                             &job->error);
@@ -463,6 +467,7 @@ int worker_main(const char *request_path, const char *answer_path, const fm_devi
     snprintf(mark_path, sizeof mark_path, WORKER_HOOK_FILE, answer_path);
     launch_job job = { .devices = devices, .answer = json_object(), .mark_path = mark_path };
     fm_open_files files;
+    parts_begin(&job.parts);
     open_files_begin(&files);
     job.request = &job.read.request;
     fm_status status = request_read(&job.read, request_path, &job.error);
@@ -487,7 +492,7 @@ int worker_main(const char *request_path, const char *answer_path, const fm_devi
     }
     answer_set_code(job.answer, &job.code);
     if (!job.request->is_truth_job)
-        answer_add_launch(job.answer, &job.measurement);
+        answer_add_launch(job.answer, &job.measurement, &job.parts);
     const int code = write_answer(job.answer, answer_path);
     release(&job);
     return code;
