@@ -15,6 +15,7 @@ kinds=(none cold warm)
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 
+TIMEFORMAT="%R %U %S"
 one() { # KIND NAME: a run, its seconds, and its folder
     local cache=$work/full from=$program
     case $1 in
@@ -23,9 +24,9 @@ one() { # KIND NAME: a run, its seconds, and its folder
     cold) cache=$work/empty && rm -rf "$cache" ;;
     esac
     rm -rf "$work/$2"
-    local before=$EPOCHREALTIME
-    FRAGMARK_CACHE=$cache "$from" run -q "${run[@]}" -o "$work/$2" >"$work/log" 2>&1 || { cat "$work/log" && exit 1; }
-    echo "$1 $(echo "$EPOCHREALTIME - $before" | bc)" >>"$work/seconds"
+    { time FRAGMARK_CACHE=$cache "$from" run -q "${run[@]}" -o "$work/$2" >"$work/log" 2>&1; } 2>"$work/time" ||
+        { cat "$work/log" && exit 1; }
+    echo "$1 $(cat "$work/time")" >>"$work/seconds"
 }
 
 for kind in "${kinds[@]}"; do # nobody's first run counts
@@ -42,13 +43,13 @@ for round in $(seq "$rounds"); do
     done
 done
 sort -k1,1 -k2,2g "$work/seconds" | awk '
-    { x[$1, ++n[$1]] = $2 }
+    { x[$1, ++n[$1]] = $2; cpu[$1] += $3 + $4 }
     function median(k) { return n[k] % 2 ? x[k, (n[k] + 1) / 2] : (x[k, n[k] / 2] + x[k, n[k] / 2 + 1]) / 2 }
     END {
         base = median("other" in n ? "other" : "none")
         for (k in n)
-            printf "%-6s median %.2f s (%.2f to %.2f, %d runs), ratio %.3f\n", k, median(k), x[k, 1], x[k, n[k]], n[k],
-                median(k) / base
+            printf "%-6s median %.2f s (%.2f to %.2f, %d runs), ratio %.3f; processors %.2f s, mean\n", k, median(k),
+                x[k, 1], x[k, n[k]], n[k], median(k) / base, cpu[k] / n[k]
     }'
 echo "seconds of a run by part, means; rest: the process of the run itself, truths, report"
 awk '
