@@ -36,6 +36,7 @@
 #include <stdint.h>
 
 #include "base/error.h"
+#include "cache/cache.h"
 #include "fragmark/method.h" /* formats, elements, fixed-function state, FM_FEATURE_*, FM_FEED_* */
 #include "ledger.h"
 #include "spirv/accesses.h"
@@ -85,6 +86,7 @@ typedef struct fm_device_desc {
     bool validation;      /* API validation, on Vulkan with synchronization checks; FM_UNSUPPORTED
                              where it is not installed */
     bool no_timers;       /* timers do nothing, so that barriers come from accesses alone */
+    fm_cache *cache;      /* of compiled shaders; lives as long as the device; NULL: none */
 } fm_device_desc;
 
 /* One line of `fragmark list devices`. */

@@ -293,6 +293,12 @@ const fm_metric_family fm_metric_families[FM_METRIC_FAMILY_COUNT] = {
     { "moved.", "_b", { "moved.RESOURCE_b", "bytes moved, RESOURCE", "B",
         "bytes_moved of one buffer or image of the method, or of its locks (fm_locks)", CASE, LESS,
         MEASURED, WHOLE } },
+    { "launch.", "_ms", { "launch.PART_ms", "launch, PART", "ms", "where a launch's time goes, by the "
+        "host's clock: start (loading the program, by processor time; plugins, device), scene (scene and truth "
+        "loaded), compile (GLSL and pipelines; what a driver compiles at a first frame is warmup's and floor's), "
+        "warmup, frames (the method's), floor (all frames of the floor), images (hashing and comparing them), "
+        "check (capturing and comparing fragments), errors (of the checked image), end (writing images)",
+        LAUNCH, LESS, TIMED } },
     { "energy_corner.", "_nj", { "energy_corner.CORNER_nj", "energy at CORNER", "nJ",
         "modelled energy with every uncertain parameter at one end of its range", CASE, LESS } },
     { "energy.", "_nj", { "energy.PART_nj", "energy, PART", "nJ", "modelled energy of a part of the GPU",

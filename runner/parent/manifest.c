@@ -202,7 +202,8 @@ static json_t *manifest_json(const fm_manifest_desc *desc)
     gmtime_r(&now, &utc);
     strftime(ended, sizeof ended, "%Y-%m-%dT%H:%M:%SZ", &utc);
     return json_pack(
-        "{s:i, s:s, s:s, s:o?, s:s, s:o?, s:I, s:i, s:i, s:i, s:b, s:b, s:s, s:s?, s:o, s:o, s:o, "
+        "{s:i, s:s, s:s, s:o?, s:s, s:o?, s:I, s:i, s:i, s:i, s:b, s:b, s:b, s:s, s:s?, s:o, s:o, "
+        "s:o, "
         "s:o, "
         "s:o, s:o, s:O?, s:o, s:o*, s:o*}",
         "schema", 1, "fragmark", FM_VERSION, "git_commit",
@@ -210,13 +211,13 @@ static json_t *manifest_json(const fm_manifest_desc *desc)
         program_json(run), "run_id", results->run_id, "command",
         run->command != NULL ? text_json(run->command) : NULL, "seed", (json_int_t)plan->seed,
         "launches", (int)plan->launches, "frames", (int)plan->frames, "warmup", (int)plan->warmup,
-        "validation", (int)run->validation, "no_timers", (int)run->no_timers, "started",
-        desc->started, "ended", desc->is_ended ? ended : NULL, "figures",
-        figures_json(run->figures), "machine", machine_json(results, run->worker_compiler),
-        "devices", devices_json(results), "methods", methods_json(results), "scenes",
-        scenes_json(results), "modelled", modelled_json(results), "meshes", results->meshes,
-        "codes", codes_json(results), "shard", shard_json(&plan->shard), "precision_percent",
-        precision_json(plan));
+        "validation", (int)run->validation, "no_timers", (int)run->no_timers, "cache",
+        (int)(run->cache != NULL && run->cache[0] != '\0'), "started", desc->started, "ended",
+        desc->is_ended ? ended : NULL, "figures", figures_json(run->figures), "machine",
+        machine_json(results, run->worker_compiler), "devices", devices_json(results), "methods",
+        methods_json(results), "scenes", scenes_json(results), "modelled", modelled_json(results),
+        "meshes", results->meshes, "codes", codes_json(results), "shard", shard_json(&plan->shard),
+        "precision_percent", precision_json(plan));
 }
 
 fm_status manifest_write(const fm_manifest_desc *desc, fm_error *err)

@@ -286,6 +286,8 @@ static ab_program program_of(const fm_build *build)
 fm_status comparing_run(comparing *of, const char *command, fm_error *err)
 {
     const fm_arguments *selection = &of->given->selection;
+    char cache[FM_PATH_MAX_BYTES];
+    cli_cache(cache, selection); /* one for both sides, or none */
     const ab_desc desc = {
         .directory = of->directory,
         .command = command != NULL ? command : "",
@@ -299,6 +301,7 @@ fm_status comparing_run(comparing *of, const char *command, fm_error *err)
                  .retried = selection->retried,
                  .kept = selection->kept,
                  .is_fresh = selection->fresh,
+                 .cache = cache,
                  .timeout_s = selection->timeout_s,
                  .memory_bytes = selection->memory_bytes,
                  .progress = selection->quiet ? NULL : selection->cli->talk,

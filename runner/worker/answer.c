@@ -285,12 +285,31 @@ static void add_timed_part(json_t *launch, const fm_host_load *begin, const fm_h
     add_known(launch, FM_METRIC_CLOCK_SHARE, end->clock_share);
 }
 
-void answer_add_launch(json_t *answer, const fm_measurement *m)
+static const char *const part_names[PART_COUNT] = {
+    [PART_START] = "start",   [PART_SCENE] = "scene",   [PART_COMPILE] = "compile",
+    [PART_WARMUP] = "warmup", [PART_FRAMES] = "frames", [PART_FLOOR] = "floor",
+    [PART_IMAGES] = "images", [PART_CHECK] = "check",   [PART_ERRORS] = "errors",
+    [PART_END] = "end",
+};
+
+/* Of a launch that measured: parts of others are of no use. */
+static void add_parts(json_t *launch, launch_parts *parts)
+{
+    char name[64];
+    for (int part = 0; part < PART_COUNT; part++) {
+        snprintf(name, sizeof name, "launch.%s_ms", part_names[part]);
+        json_object_set_new(launch, name, json_real(part_ms(parts, (launch_part)part)));
+    }
+}
+
+void answer_add_launch(json_t *answer, const fm_measurement *m, launch_parts *parts)
 {
     json_t *launch = json_object();
     add_known(launch, FM_METRIC_LAUNCH_CPU_S, host_load_own_cpu_s());
     if (m->sample_count > 0)
         add_timed_part(launch, &m->begin, &m->end);
+    if (m->sample_count > 0)
+        add_parts(launch, parts);
     if (m->has_new_images) {
         answer_set_number(launch, FM_METRIC_FRAMES_RMSE_MAX, m->frames_worst.rmse);
         answer_set_number(launch, FM_METRIC_FRAMES_MAX_ABS, m->frames_worst.max_abs);

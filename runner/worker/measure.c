@@ -14,6 +14,7 @@ fm_status measure_case(fm_measurement *measurement, const fm_measure_desc *desc,
     fm_status status = measure_times(measurement, desc, err);
     if (status == FM_OK && desc->check)
         status = measure_check_fragments(measurement, desc, err);
+    parts_enter(desc->parts, PART_ERRORS);
     if (status == FM_OK && desc->check)
         status = measure_check_images(measurement, desc, err);
     if (measurement->range.low != NULL) {

@@ -7,6 +7,7 @@
 #include "image/image_error.h"
 #include "image/image_range.h"
 #include "instance/instance.h"
+#include "parts.h"
 #include "truth/check.h"
 #include "truth/truth.h"
 
@@ -93,7 +94,8 @@ typedef struct fm_measure_desc {
     const uint64_t *known_images; /* [known_count]: hashes of images that earlier launches drew and
                                      compared; they are not compared again */
     size_t known_count;
-    const char *keep; /* file for the captured fragments (truth/kept_file.h); NULL or "": none */
+    launch_parts *parts; /* NULL: nobody asks */
+    const char *keep;    /* file for the captured fragments (truth/kept_file.h); NULL or "": none */
 } fm_measure_desc;
 
 /* Fragments of a pixel that truth wants of a method: UINT32_MAX means all. */

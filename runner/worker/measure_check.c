@@ -315,8 +315,10 @@ fm_status measure_check_fragments(fm_measurement *measurement, const fm_measure_
     capture.is_capture = true;
     capture.capture_slots = check.slots;
     capture.counts_accesses = true;
+    parts_enter(desc->parts, PART_COMPILE);
     if (status == FM_OK)
         status = instance_create(&instance, &capture, err);
+    parts_enter(desc->parts, PART_CHECK);
     if (status == FM_OK)
         status = begin_keeping(&check, &kept, desc->keep, err);
     if (status == FM_OK)

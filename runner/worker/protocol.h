@@ -12,6 +12,7 @@
  *     "settings": { "k": "8", ... },        every key of fm_keys, as text
  *     "options": { "layout": "layer" },     the method's own, each with its value
  *     "truth": "path of the truth file", "launch": 0,
+ *     "cache": "folder of what other launches left, or empty",
  *     "check": true,                        capture and compare all fragments
  *     "image": "path to write the image to, or empty",
  *     "range": "path, without its ending, for what its new images reach, or empty",
@@ -76,6 +77,7 @@ typedef struct fm_request {
     const fm_choice *choices; /* of the method's options; its first value for what is missing */
     size_t choice_count;
     const char *truth; /* path of the truth file */
+    const char *cache; /* folder of the cache (cache/cache.h); "" or NULL: none */
     const char *image; /* path of the image to be written; "": none */
     const char *range; /* prefix of image/image_range.h; "" or NULL: none */
     /* [known_count]: hashes of what earlier launches drew. Of very many only the first are written:
@@ -149,6 +151,9 @@ json_t *answer_make_runs_fault(const char *message);
 /* Adds to the message: "; NOTE". What has no room then is cut from the end of the message, and of a
  * note that has none alone. */
 void answer_add_note(json_t *answer, const char *note);
+/* Writes it; one that does not fit is tried once more with the reason alone. Returns the worker's
+ * exit status. */
+int answer_write(const json_t *answer, const char *path);
 
 /* Reading an answer: the parent's side. */
 

@@ -65,7 +65,10 @@ fm_status request_write(const char *path, const fm_request *request, fm_error *e
         request->truth, "launch", (int)request->launch, "check", (int)request->check, "image",
         request->image, "range", request->range != NULL ? request->range : "", "known_images",
         json_hashes(request->known_images, known));
-    const bool is_whole = add_keep(object, request);
+    const bool is_whole =
+        add_keep(object, request) &&
+        json_object_set_new(object, "cache",
+                            json_string(request->cache != NULL ? request->cache : "")) == 0;
     char *text = is_whole ? json_dumps(object, JSON_INDENT(1)) : NULL;
     const fm_status status =
         text != NULL ? text_write_file(path, text, strlen(text), err)
@@ -136,25 +139,16 @@ static const struct {
     const char *name;
     json_type type;
 } request_fields[] = {
-    { "job", JSON_STRING },
-    { "plugin", JSON_STRING },
-    { "floor", JSON_STRING },
-    { "common", JSON_STRING },
-    { "device", JSON_STRING },
-    { "validation", JSON_TRUE },
-    { "no_timers", JSON_TRUE },
-    { "feed", JSON_STRING },
-    { "settings", JSON_OBJECT },
-    { "options", JSON_OBJECT },
-    { "truth", JSON_STRING },
-    { "launch", JSON_INTEGER },
-    { "check", JSON_TRUE },
-    { "image", JSON_STRING },
-    { "range", JSON_STRING },
-    { "known_images", JSON_ARRAY },
-    { "keep_fragments", JSON_STRING },
-    { "keep_truth", JSON_STRING },
-    { "keep_frames", JSON_STRING },
+    { "job", JSON_STRING },         { "plugin", JSON_STRING },
+    { "floor", JSON_STRING },       { "common", JSON_STRING },
+    { "device", JSON_STRING },      { "validation", JSON_TRUE },
+    { "no_timers", JSON_TRUE },     { "feed", JSON_STRING },
+    { "settings", JSON_OBJECT },    { "options", JSON_OBJECT },
+    { "truth", JSON_STRING },       { "cache", JSON_STRING },
+    { "launch", JSON_INTEGER },     { "check", JSON_TRUE },
+    { "image", JSON_STRING },       { "range", JSON_STRING },
+    { "known_images", JSON_ARRAY }, { "keep_fragments", JSON_STRING },
+    { "keep_truth", JSON_STRING },  { "keep_frames", JSON_STRING },
 };
 
 /* The parent writes all of them; what lacks one was not written by it. */
@@ -222,6 +216,7 @@ fm_status request_read(fm_read_request *read, const char *path, fm_error *err)
         .settings = &read->settings,
         .choices = read->choices,
         .truth = json_text_in(json, "truth"),
+        .cache = json_text_in(json, "cache"),
         .image = json_text_in(json, "image"),
         .range = json_text_in(json, "range"),
         .check = json_is_set(json, "check"),

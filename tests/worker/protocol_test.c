@@ -34,6 +34,7 @@ static void request_comes_back_as_it_was_written(void **state)
                                  .choices = choices,
                                  .choice_count = 1,
                                  .truth = "t.truth",
+                                 .cache = "/c",
                                  .image = "",
                                  .range = "work/7",
                                  .known_images = known,
@@ -49,6 +50,7 @@ static void request_comes_back_as_it_was_written(void **state)
     assert_string_equal(read.request.plugin, "a/a.so");
     assert_string_equal(read.request.device, "vulkan:0");
     assert_int_equal(read.request.launch, 3);
+    assert_string_equal(read.request.cache, "/c");
     assert_string_equal(read.request.range, "work/7");
     assert_int_equal(read.request.known_count, 2);
     assert_memory_equal(read.request.known_images, known, sizeof known);
@@ -104,8 +106,8 @@ static void request_with_very_many_known_images_is_read(void **state)
     "{\"protocol\": 1, \"job\": " job ", \"plugin\": \"\", \"floor\": \"\", \"common\": \"\", "    \
     "\"device\": \"\", "                                                                           \
     "\"validation\": false, \"no_timers\": false, \"feed\": \"\", \"settings\": {" settings        \
-    "}, \"options\": {" options "}, \"truth\": \"\", \"launch\": " launch ", \"check\": " check    \
-    ", \"image\": \"\", \"range\": \"\", \"known_images\": [" known                                \
+    "}, \"options\": {" options "}, \"truth\": \"\", \"cache\": \"\", \"launch\": " launch         \
+    ", \"check\": " check ", \"image\": \"\", \"range\": \"\", \"known_images\": [" known          \
     "], \"keep_fragments\": \"\", \"keep_truth\": \"\", \"keep_frames\": "                         \
     "\"\"}"
 #define REQUEST(job, launch, check, settings, options)                                             \
