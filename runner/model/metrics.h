@@ -189,7 +189,7 @@ typedef struct fm_metric_family {
     const char *prefix, *suffix;
     fm_metric_info info; /* name: "pass.NAME_ms" */
 } fm_metric_family;
-enum { FM_METRIC_FAMILY_COUNT = 7 };
+enum { FM_METRIC_FAMILY_COUNT = 8 };
 extern const fm_metric_family fm_metric_families[FM_METRIC_FAMILY_COUNT];
 
 /* A case of which fewer samples are left, because others were off full clock, is unclear. */
