@@ -13,6 +13,7 @@ void resolve(uvec2 pixel)
 void resolve(uvec2 pixel)
 {
     uint link = heads[fm_pixel_index(pixel)];
+    select_none();
     FM_LOOP for (uint count = 0u; link != END_OF_LIST && count < N; ++count) {
         select_nearest(uvec2(nodes[link - 1u], nodes[link]));
         link = nodes[link + 1u];

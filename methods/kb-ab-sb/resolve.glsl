@@ -18,6 +18,7 @@ void resolve(uvec2 pixel)
 {
     uint count = min(counters[fm_pixel_index(pixel)], N);
     find_places(pixel, count);
+    select_none();
     FM_LOOP for (uint i = 0u; i < count; ++i)
         select_nearest(fragment_at(pixel, i));
     emit_selected(pixel);
