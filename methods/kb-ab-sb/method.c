@@ -16,8 +16,8 @@ const fm_method_desc fm_method = {
     .options = {
         { .name = "counters", .values = { "32", "1", "2", "10", "30", "50", "256", "1024" },
           .help = "S, how many counters all pixels share" },
-        { .name = "hash", .values = { "paper", "tiled" },
-          .help = "pixel to counter: by number, (x + W y) mod S, or by tiles of 256 x 96" },
+        { .name = "hash", .values = { "tiled", "paper" },
+          .help = "pixel to counter: by tiles of 256 x 96, or by number, (x + W y) mod S" },
         { .name = "mapping", .values = { "forward", "inverse" },
           .help = "all counters from the pool's front, or half of them from its end" },
         { .name = "select", .values = { "registers", "heap", "farthest" },
