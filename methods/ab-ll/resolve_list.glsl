@@ -2,9 +2,30 @@
 // array would be too long, the list itself is sorted; in runs of the pass where the device would end its
 // loops. A list is its head's alone.
 #include "ab-ll/node.glsl"
+
+#define OWN_CURSORS
+uvec2 fragment_at(uvec2 pixel, uint link)
+{
+    return uvec2(nodes[link - 1u], nodes[link]);
+}
+void put_fragment(uvec2 pixel, uint link, uvec2 fragment)
+{
+    nodes[link - 1u] = fragment.x;
+    nodes[link] = fragment.y;
+}
+uint next_cursor(uint link)
+{
+    return nodes[link + 1u];
+}
 #include "common/sort_limit.glsl"
 #if FM_RESUMES && (defined(LISTS) || N > FM_LOOP_LIMIT / 20) // before, one merge sort is within the limit
 #include "ab-ll/sort_links_in_runs.glsl"
+#elif SORTS_BY_NETWORK
+
+uint resolve_list(uvec2 pixel, uint list, uint rank)
+{
+    return emit_by_network(pixel, heads[list], END_OF_LIST, rank, 0u);
+}
 #elif SORTS_IN_PLACE
 #include "ab-ll/sort_links.glsl"
 

@@ -18,6 +18,8 @@ const fm_method_desc fm_method = {
           .help = "pixel to counter: by tiles of 256 x 96, or by number, (x + W y) mod S" },
         { .name = "mapping", .values = { "forward", "inverse" },
           .help = "all counters from the pool's front, or half of them from its end" },
+        { .name = "sort", .values = { "shell", "registers", "blocks" },
+          .help = "in resolve: in a private array, up to 32 in registers, or in blocks of 32" },
     },
     .resources = {
         { .name = "counters", .extent = { .per_pixel = 1 }, .used = { .per_pixel = 1 } },

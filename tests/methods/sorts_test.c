@@ -86,6 +86,21 @@ static void on_columns(void **state, uint32_t n, const char *option, const char 
     kit_close(&kit);
 }
 
+/* The last two are beyond what blocks merge, and beyond private arrays. */
+static void every_sort_hands_over_all_in_order(void **state)
+{
+    static const uint32_t some[] = { 8, 33, 100 };
+    static const uint32_t all[] = { 1, 8, 9, 16, 17, 31, 32, 33, 65, 200, 640, 641, 1024, 1025 };
+    const uint32_t *n = kit_wants_all() ? all : some;
+    for (size_t i = 0; i < (kit_wants_all() ? sizeof all : sizeof some) / sizeof *n; i++)
+        on_columns(state, n[i], "sort", "", 0);
+}
+
+static void every_sort_hands_over_from_the_back_too(void **state)
+{
+    on_columns(state, 70, "sort", "composite=back-to-front", FM_TRAIT_EMITS_EITHER);
+}
+
 static void every_selection_has_the_k_nearest(void **state)
 {
     static const char *const some[] = { "k=1", "k=7", "k=17" };
@@ -104,6 +119,8 @@ static void every_selection_hands_over_from_the_back_too(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        ON_VULKAN_AND_OSMESA(every_sort_hands_over_all_in_order),
+        ON_VULKAN_AND_OSMESA(every_sort_hands_over_from_the_back_too),
         ON_VULKAN_AND_OSMESA(every_selection_has_the_k_nearest),
         ON_VULKAN_AND_OSMESA(every_selection_hands_over_from_the_back_too),
     };
