@@ -1,6 +1,6 @@
-/* How resolve sorts, by the options `sort` and `select`, must not change what is handed over: pixels of every number of
- * fragments around the sizes of registers, blocks and windows. Which methods have the options is read from their
- * descriptors. */
+/* How resolve sorts, by the options `sort` and `select`, must not change what is handed over:
+ * pixels of every number of fragments around the sizes of registers, blocks and windows. Which
+ * methods have the options is read from their descriptors. */
 #include <stdio.h>
 
 #include "kit/scene_kit.h"
@@ -9,8 +9,9 @@
 enum { HEIGHT = 3, COLUMNS = 16 };
 
 /* Fragments of a column's pixels; the last one has n. */
-static const uint32_t counts[COLUMNS - 1] = { 0,  1,  2,  7,  8,  9,  15, 16,
-                                              17, 31, 32, 33, 63, 64, 65 };
+static const uint32_t counts[COLUMNS - 1] = {
+    0, 1, 2, 7, 8, 9, 15, 16, 17, 31, 32, 33, 63, 64, 65
+};
 
 static uint32_t count_of(uint32_t column, uint32_t n)
 {
@@ -52,7 +53,8 @@ static const fm_option *option_of(const fm_method_desc *method, const char *name
     return NULL;
 }
 
-/* All values of the option but the default, which other tests have: each with the other keys, on one of both devices. */
+/* All values of the option but the default, which other tests have: each with the other keys, on
+ * one of both devices. */
 static size_t expect_values(kit_scene *scene, const char *option, const char *keys, uint32_t traits)
 {
     const size_t is_vulkan = strcmp(scene->kit->device->ops->name, "vulkan") == 0;
