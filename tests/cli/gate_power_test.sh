@@ -36,9 +36,12 @@ interval() {
             return sum
         }
         BEGIN {
-            low = 0; high = 1
-            for (a = 0, b = 1; x > 0 && b - a > 1e-6;) { low = (a + b) / 2; if (tail(low, x, n) < 0.025) a = low; else b = low }
-            for (a = 0, b = 1; x < n && b - a > 1e-6;) { high = (a + b) / 2; if (tail(high, 0, x) < 0.025) b = high; else a = high }
+            low = 0
+            high = 1
+            for (step = 0.5; step > 1e-7 && x > 0; step /= 2)
+                if (tail(low + step, x, n) < 0.025) low += step
+            for (step = 0.5; step > 1e-7 && x < n; step /= 2)
+                if (tail(high - step, 0, x) < 0.025) high -= step
             printf "%d of %d (%.0f to %.0f %%)\n", x, n, 100 * low, 100 * high
         }'
 }
