@@ -13,6 +13,7 @@ void resolve(uvec2 pixel)
 void resolve(uvec2 pixel)
 {
     uint count = min(counters[fm_pixel_index(pixel)], N);
+    select_none();
     FM_LOOP for (uint i = 0u; i < count; ++i)
         select_nearest(fragments[array_slot(pixel, i, N)]);
     emit_selected(pixel);
