@@ -125,16 +125,6 @@ static bool is_bad_input(fm_status status)
     return status == FM_IO || status == FM_INVALID || status == FM_SHADER;
 }
 
-/* What the world does to whoever opens or writes a file, whoever that is. */
-static bool names_the_world(const char *message)
-{
-    static const int causes[] = { ENOSPC, EDQUOT, EFBIG, EMFILE, ENFILE, EROFS, EIO };
-    for (size_t i = 0; i < sizeof causes / sizeof causes[0]; i++)
-        if (strstr(message, strerror(causes[i])) != NULL)
-            return true;
-    return false;
-}
-
 /* What the run itself writes and reads, its requests, and what fragmark brings: GLSL of the runner
  * and the floor; and a device that cannot be opened. Disks fill, somebody deletes, an installation
  * breaks; no method did anything wrong. */
@@ -146,7 +136,7 @@ static bool is_runs_fault(const launch_job *job, fm_status status)
         return true;
     if (job->is_leaking && strstr(job->error.message, strerror(EMFILE)) != NULL)
         return false;
-    if ((status == FM_IO || job->is_opening) && names_the_world(job->error.message))
+    if ((status == FM_IO || job->is_opening) && fm_error_is_the_worlds(&job->error))
         return true;
     if (job->measurement.is_floors)
         return is_bad_input(status);

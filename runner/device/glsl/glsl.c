@@ -115,7 +115,7 @@ static bool recall(fm_spirv *spirv, const fm_cache *cache, const cache_key *key)
 }
 
 fm_status glsl_compile(fm_spirv *spirv, glsl_compiler *compiler, const glsl_source *source,
-                     fm_error *err)
+                       fm_error *err)
 {
     *spirv = (fm_spirv){ .words = NULL };
     if (compiler->cache == NULL)

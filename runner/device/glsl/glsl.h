@@ -17,12 +17,7 @@ typedef struct glsl_compiler {
 } glsl_compiler;
 void glsl_compiler_end(glsl_compiler *compiler);
 
-typedef enum glsl_stage {
-    GLSL_VERTEX,
-    GLSL_FRAGMENT,
-    GLSL_COMPUTE,
-    GLSL_STAGE_COUNT
-} glsl_stage;
+typedef enum glsl_stage { GLSL_VERTEX, GLSL_FRAGMENT, GLSL_COMPUTE, GLSL_STAGE_COUNT } glsl_stage;
 
 typedef struct glsl_source {
     const char *name; /* of the pipeline, in messages */
@@ -38,7 +33,7 @@ typedef struct fm_spirv {
 /* FM_SHADER: what the compiler says, with the line of GLSL that it speaks of; FM_NO_MEMORY.
  * glsl_free also after a failure. */
 fm_status glsl_compile(fm_spirv *spirv, glsl_compiler *compiler, const glsl_source *source,
-                     fm_error *err);
+                       fm_error *err);
 void glsl_free(fm_spirv *spirv);
 
 #endif
