@@ -3,7 +3,7 @@
 void clear(uvec2 pixel)
 {
     FM_LOOP for (uint i = 0u; i < K; ++i) {
-        keys[array_slot(pixel, i, K)] = EMPTY;
-        colours[array_slot(pixel, i, K)] = 0u;
+        put_key(pixel, i, EMPTY);
+        put_colour(pixel, i, 0u);
     }
 }

@@ -8,11 +8,11 @@ void store(uvec2 pixel, float depth, uint colour)
     uint key = key_of(depth), first = 0u, end = K;
     FM_LOOP while (first < end) { // keys ascend: O(log k)
         uint middle = (first + end) / 2u;
-        bool is_before = keys[array_slot(pixel, middle, K)] < key;
+        bool is_before = key_at(pixel, middle) < key;
         first = is_before ? middle + 1u : first;
         end = is_before ? end : middle;
     }
-    uint slot = array_slot(pixel, min(first, K - 1u), K);
-    if (keys[slot] == key)
-        colours[slot] = colour;
+    uint i = min(first, K - 1u);
+    if (key_at(pixel, i) == key)
+        put_colour(pixel, i, colour);
 }

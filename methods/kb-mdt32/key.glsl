@@ -6,6 +6,47 @@
 
 const uint EMPTY = 0xFFFFFFFFu;
 
+uint key_at(uvec2 pixel, uint i)
+{
+#if ARRAY_IS_IMAGE
+    return fm_load_keys(pixel, i).x;
+#else
+    return keys[array_slot(pixel, i, K)];
+#endif
+}
+
+#ifdef FM_WRITES_KEYS
+void put_key(uvec2 pixel, uint i, uint key)
+{
+#if ARRAY_IS_IMAGE
+    fm_store_keys(pixel, i, uvec4(key, 0u, 0u, 0u));
+#else
+    keys[array_slot(pixel, i, K)] = key;
+#endif
+}
+
+// Leaves the nearer of two keys in the slot; the answer is what was there.
+uint keep_nearer(uvec2 pixel, uint i, uint key)
+{
+#if ARRAY_IS_IMAGE
+    return imageAtomicMin(fm_image_keys, ivec3(pixel, i), key);
+#else
+    return atomicMin(keys[array_slot(pixel, i, K)], key);
+#endif
+}
+#endif
+
+#ifdef FM_WRITES_COLOURS
+void put_colour(uvec2 pixel, uint i, uint colour)
+{
+#if ARRAY_IS_IMAGE
+    fm_store_colours(pixel, i, uvec4(colour, 0u, 0u, 0u));
+#else
+    colours[array_slot(pixel, i, K)] = colour;
+#endif
+}
+#endif
+
 #if DEPTH_BITS == DEPTH_BITS_PUBLISHED
 const float NEAR = 0.001, FAR = 50.0, SCALE = 4294967295.0; // its planes unless fitted to the scene
 

@@ -7,9 +7,9 @@
 void store(uvec2 pixel, float depth, uint colour)
 {
     uint sinking = key_of(depth);
-    bool is_done = sinking >= keys[array_slot(pixel, K - 1u, K)];
+    bool is_done = sinking >= key_at(pixel, K - 1u);
     FM_LOOP for (uint i = 0u; i < K && !is_done; ++i) {
-        uint found = atomicMin(keys[array_slot(pixel, i, K)], sinking);
+        uint found = keep_nearer(pixel, i, sinking);
         is_done = found == EMPTY;
 #if DEPTH_BITS == DEPTH_BITS_EXACT
         is_done = is_done || found == sinking; // of equal depths one is kept
