@@ -1,4 +1,4 @@
-#include "common/array.glsl"
+#include "common/kept.glsl"
 
 // Where the i-th of `count` fragments lies: in the last slots.
 #ifndef SLOT_OF
@@ -8,11 +8,11 @@
 #if FM_RESUMES // so many would take more iterations than the device allows: in runs, where they lie
 uvec2 fragment_at(uvec2 pixel, uint i)
 {
-    return fragments[array_slot(pixel, SLOT_OF(i), K)];
+    return kept_at(pixel, SLOT_OF(i));
 }
 void put_fragment(uvec2 pixel, uint i, uvec2 fragment)
 {
-    fragments[array_slot(pixel, SLOT_OF(i), K)] = fragment;
+    keep_at(pixel, SLOT_OF(i), fragment);
 }
 #define SORT_MOST K
 #include "common/sort_in_place.glsl"
@@ -31,7 +31,7 @@ void resolve(uvec2 pixel)
 {
     uint count = counters[fm_pixel_index(pixel)];
     FM_LOOP for (uint i = 0u; i < count; ++i)
-        sorted[i] = fragments[array_slot(pixel, SLOT_OF(i), K)];
+        sorted[i] = kept_at(pixel, SLOT_OF(i));
     sort_fragments(count);
     emit_sorted(pixel, count);
 }

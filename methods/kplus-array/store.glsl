@@ -1,3 +1,3 @@
-#include "common/array.glsl"
+#include "common/kept.glsl"
 #include "kplus-array/max_array.glsl"
 #include "common/keep_nearest.glsl"

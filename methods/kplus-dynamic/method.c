@@ -10,7 +10,7 @@ const fm_method_desc fm_method = {
     .title = "K+B-Dynamic",
     .citation = "Vasilakis, Papaioannou, Fudos 2015, k+-buffer: An Efficient, Memory-Friendly and "
                 "Dynamic k-Buffer Framework, IEEE TVCG 21(6)",
-    .version = "2",
+    .version = "3",
     .traits = FM_TRAIT_EXACT | FM_TRAIT_SORTS_IN_RESOLVE | FM_TRAIT_EMITS_EITHER,
     .keeps = FM_KEEPS_K_NEAREST,
     .k_total = "k",

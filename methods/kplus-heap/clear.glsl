@@ -1,4 +1,1 @@
-void clear(uvec2 pixel)
-{
-    counters[fm_pixel_index(pixel)] = 0u;
-}
+#include "kplus-array/clear.glsl"

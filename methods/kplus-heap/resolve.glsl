@@ -1,2 +1,1 @@
-#define SLOT_OF(i) (i)
 #include "kplus-array/resolve.glsl"

@@ -1,3 +1,3 @@
-#include "common/array.glsl"
+#include "common/kept.glsl"
 #include "kplus-heap/max_heap.glsl"
 #include "common/keep_nearest.glsl"

@@ -1,2 +1,3 @@
 #include "kplus-sb/slot.glsl"
-#include "kplus-heap/resolve.glsl"
+#define SLOT_OF(i) (i) // where there are fewer than K; else in any order
+#include "kplus-array/resolve.glsl"

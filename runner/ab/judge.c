@@ -131,29 +131,37 @@ fm_status judge_pairs(ab_judged *judged, const double *differences, size_t count
     return status;
 }
 
-/* Half an interval falls with the root of the number of pairs: to be inside the band, or beside 0,
- * whichever is nearer. */
-static uint32_t wanted_pairs(const ab_judged *judged)
+/* The estimate itself is no smaller than what counts anywhere. */
+static bool has_counting_estimate(const ab_judged *judged, const ab_policy *policy)
+{
+    return fabs(judged->shift.interval.median) >= log1p(policy->band);
+}
+
+/* Half an interval falls with the root of the number of pairs: to be inside the band, or beside 0
+ * where the estimate counts, whichever is nearer. */
+static uint32_t wanted_pairs(const ab_judged *judged, const ab_policy *policy)
 {
     const fm_interval *interval = &judged->shift.interval;
     const double half = 0.5 * (interval->high - interval->low), off = fabs(interval->median);
-    const double room = fmax(off, judged->band - off);
+    const double inside = judged->band - off;
+    const double room = has_counting_estimate(judged, policy) ? fmax(off, inside) : inside;
     const double pairs = ceil((double)judged->pairs * (half / room) * (half / room));
     return pairs <= DECIDE_VALUES ? (uint32_t)fmax(pairs, (double)judged->pairs + 1.0) : 0;
 }
 
-void judge_verdict(ab_judged *judged, double level)
+void judge_verdict(ab_judged *judged, const ab_policy *policy, size_t look)
 {
     const fm_interval *interval = &judged->shift.interval;
+    const bool is_certain = judged->adjusted <= policy->levels[look];
     judged->pairs_wanted = 0;
     if (judged->pairs < AB_PAIRS_LEAST)
         judged->verdict = AB_UNMEASURED;
     else if (interval->low > -judged->band && interval->high < judged->band)
         judged->verdict = AB_SAME;
-    else if (judged->adjusted <= level && interval->median != 0.0)
+    else if (is_certain && has_counting_estimate(judged, policy))
         judged->verdict = interval->median > 0.0 ? AB_WORSE : AB_BETTER;
     else {
         judged->verdict = AB_UNCLEAR;
-        judged->pairs_wanted = interval_is_known(interval) ? wanted_pairs(judged) : 0;
+        judged->pairs_wanted = interval_is_known(interval) ? wanted_pairs(judged, policy) : 0;
     }
 }

@@ -83,8 +83,9 @@ typedef struct ab_judged {
 fm_status judge_pairs(ab_judged *judged, const double *differences, size_t count,
                       const ab_policy *policy, double coverage, double least, fm_error *err);
 
-/* AB_SAME, AB_WORSE, AB_BETTER or AB_UNCLEAR, by the interval, the band and `adjusted`; level: of
- * the look. Sets pairs_wanted. */
-void judge_verdict(ab_judged *judged, double level);
+/* AB_SAME, AB_WORSE, AB_BETTER or AB_UNCLEAR, by the interval, the band and `adjusted` at that
+ * look. What is worse or better is certain, and the estimate itself is at least policy->band. Sets
+ * pairs_wanted. */
+void judge_verdict(ab_judged *judged, const ab_policy *policy, size_t look);
 
 #endif

@@ -68,7 +68,7 @@ static void decide(ab_tested *tested, const ab_policy *policy, size_t look)
 {
     for (int s = 0; s < AB_STATISTIC_COUNT; s++)
         if (tested->differences[s] != NULL)
-            judge_verdict(&tested->judged[s], policy->levels[look]);
+            judge_verdict(&tested->judged[s], policy, look);
     tested->verdict = combine(tested);
     tested->is_decided = tested->verdict != AB_UNCLEAR || look + 1 == policy->look_count;
 }

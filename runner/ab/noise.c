@@ -31,7 +31,7 @@ static fm_status is_alarm(bool *alarm, const double *differences, const ab_polic
     if (status != FM_OK)
         return status;
     judged.adjusted = judged.p;
-    judge_verdict(&judged, policy->levels[0]);
+    judge_verdict(&judged, policy, 0);
     *alarm = judged.verdict == AB_WORSE || judged.verdict == AB_BETTER;
     return FM_OK;
 }

@@ -31,7 +31,7 @@ typedef struct comparing {
 } comparing;
 
 /* Where nothing is said of scenes, axes or a spec: a case that a software rasteriser draws in a
- * fifth of a second. FM_NO_MEMORY. */
+ * fifth of a second. Where nothing is said of frames: 20 of a launch. FM_NO_MEMORY. */
 fm_status comparing_use_defaults(comparing_arguments *given, fm_error *err);
 /* Finds the plugins of a side; folders[side] is set. */
 fm_status comparing_find(comparing *of, ab_side_name side, fm_error *err);

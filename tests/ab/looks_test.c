@@ -238,18 +238,40 @@ static void unclear_case_goes_on_to_the_last_look_and_says_what_it_needs(void **
 static void wanted_pairs_fall_with_the_square_of_the_interval(void **state)
 {
     (void)state;
+    ab_policy policy;
+    assert_int_equal(ab_policy_make(&policy, NULL, NULL), FM_OK);
     ab_judged judged = {
         .pairs = 40, .shift.interval = { 0.0, -0.04, 0.04 }, .band = 0.02, .adjusted = 1.0
     };
-    judge_verdict(&judged, 0.05);
+    judge_verdict(&judged, &policy, 0);
     assert_int_equal(judged.verdict, AB_UNCLEAR);
     assert_int_equal(judged.pairs_wanted, 160);
     judged.shift.interval = (fm_interval){ 0.03, -0.01, 0.07 }; /* to be beside 0 is nearer */
-    judge_verdict(&judged, 0.05);
+    judge_verdict(&judged, &policy, 0);
     assert_int_equal(judged.pairs_wanted, 72);
     judged.shift.interval = (fm_interval){ 0.0, -0.4, 0.4 };
-    judge_verdict(&judged, 0.05);
+    judge_verdict(&judged, &policy, 0);
     assert_int_equal(judged.pairs_wanted, 0); /* 16 000 */
+}
+
+/* However quiet the machine is: 1.5 % slower for certain is not worse where 2 % count. */
+static void a_certain_change_whose_estimate_does_not_count_is_not_worse(void **state)
+{
+    (void)state;
+    ab_policy policy;
+    assert_int_equal(ab_policy_make(&policy, NULL, NULL), FM_OK);
+    ab_judged judged = {
+        .pairs = 40, .shift.interval = { 0.015, 0.009, 0.021 }, .band = 0.02, .adjusted = 1e-9
+    };
+    judge_verdict(&judged, &policy, 0);
+    assert_int_equal(judged.verdict, AB_UNCLEAR);
+    assert_int_equal(judged.pairs_wanted, 58); /* until the interval ends at 2 % */
+    judged.shift.interval = (fm_interval){ 0.021, 0.015, 0.027 };
+    judge_verdict(&judged, &policy, 0);
+    assert_int_equal(judged.verdict, AB_WORSE);
+    judged.shift.interval = (fm_interval){ -0.015, -0.021, -0.009 };
+    judge_verdict(&judged, &policy, 0);
+    assert_int_equal(judged.verdict, AB_UNCLEAR);
 }
 
 static void band_is_what_the_machine_can_detect_where_it_is_noisy(void **state)
@@ -371,6 +393,7 @@ int main(void)
         cmocka_unit_test(gpu_is_judged_by_time_alone),
         cmocka_unit_test(unclear_case_goes_on_to_the_last_look_and_says_what_it_needs),
         cmocka_unit_test(wanted_pairs_fall_with_the_square_of_the_interval),
+        cmocka_unit_test(a_certain_change_whose_estimate_does_not_count_is_not_worse),
         cmocka_unit_test(band_is_what_the_machine_can_detect_where_it_is_noisy),
         cmocka_unit_test(many_cases_take_more_to_be_worse),
         cmocka_unit_test(decided_cases_stay_as_they_are),

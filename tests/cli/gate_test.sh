@@ -3,6 +3,7 @@
 # slower is found, confirmed and named, with exit code 1; copies that are equal end with 0. Processor time decides,
 # since other programs hardly change it. GATES=N runs N gates of equal copies (1), and tells what they said.
 set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/slower_copy.sh"
 program=$1
 gates=${GATES:-1}
 methods=$(dirname "$program")/methods
@@ -12,18 +13,9 @@ fail() { echo "gate_test: $*" >&2; exit 1; }
 "$program" doctor 2>&1 | grep -qi 'llvmpipe' || { echo "gate_test: no lavapipe here"; exit 77; }
 small=(-q --no-images --calibration none -a n=16 -a k=4 -a width_px=214 -a height_px=120)
 
-mkdir -p "$work/base" "$work/equal" "$work/slow"
-for folder in base equal slow; do cp -rL "$methods/kplus-heap" "$work/$folder/"; done
-# Some 2000 multiplications a pixel, whose result nobody can know to be of no use.
-cat >"$work/slow/kplus-heap/clear.glsl" <<'GLSL'
-void clear(uvec2 pixel)
-{
-    uint x = pixel.x;
-    FM_LOOP for (uint i = 0u; i < 2000u; i++)
-        x = x * 1664525u + 1013904223u;
-    counters[fm_pixel_index(pixel)] = x == 0xFFFFFFFFu && pixel.y == 0x7FFFFFFFu ? 1u : 0u;
-}
-GLSL
+mkdir -p "$work/base" "$work/equal"
+for folder in base equal; do cp -rL "$methods/kplus-heap" "$work/$folder/"; done
+slower_copy "$methods" "$work/slow" 2000
 
 code=0
 "$program" gate "$work/base" "$work/slow" "${small[@]}" --pairs 10,20 -o "$work/slower" >"$work/said" 2>&1 || code=$?
