@@ -12,8 +12,8 @@ const fm_method_desc fm_method = {
     .family = FM_FAMILY_A_BUFFER,
     .marker = FM_MARKER_SQUARE,
     .options = {
-        { .name = "layout", .values = { "pixel", "layer", "tile" },
-          .help = "side by side: a pixel's, the i-th of all pixels, or of a tile" },
+        { .name = "layout", .values = { "pixel", "layer", "tile", "image" },
+          .help = "side by side: a pixel's, the i-th of all pixels, or of a tile; image: a layer each" },
         { .name = "sort", .values = { "shell", "registers", "blocks" },
           .help = "in resolve: in a private array, up to 32 in registers, or in blocks of 32" },
     },
@@ -21,6 +21,9 @@ const fm_method_desc fm_method = {
         { .name = "counters", .extent = { .per_pixel = 1 }, .used = { .per_pixel = 1 } },
         { .name = "fragments", .element = FM_ELEMENT_UVEC2, .extent = { .per_pixel_n = 1 },
           .used = { .per_fragment = 1 } },
+        { .name = "fragments", .kind = FM_RESOURCE_IMAGE, .format = FM_FORMAT_RG32UI,
+          .extent = { .per_pixel_n = 1 }, .used = { .per_fragment = 1 },
+          .when_option = "layout", .when_value = "image" },
     },
     .passes = {
         { .name = "clear", .kind = FM_PASS_PIXELS, .shader = "clear.glsl",

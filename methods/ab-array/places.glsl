@@ -2,12 +2,14 @@
 #ifndef PLACES
 #define PLACES N
 #endif
+#define KEPT_PLACES PLACES
+#include "common/kept.glsl"
 
 uvec2 fragment_at(uvec2 pixel, uint i)
 {
-    return fragments[array_slot(pixel, i, PLACES)];
+    return kept_at(pixel, i);
 }
 void put_fragment(uvec2 pixel, uint i, uvec2 fragment)
 {
-    fragments[array_slot(pixel, i, PLACES)] = fragment;
+    keep_at(pixel, i, fragment);
 }

@@ -1,5 +1,3 @@
-#include "common/array.glsl"
-
 #include "ab-array/places.glsl"
 #include "common/resolve_all.glsl"
 

@@ -2,7 +2,14 @@
 //   pixel  a pixel's elements side by side
 //   layer  the i-th elements of all pixels side by side
 //   tile   as layer, within tiles of 8 x 8 pixels (narrower at the border: no element is wasted)
+//   image  on layer i of an image that stands in for the buffer (when_option in fragmark/resource.h):
+//          shaders ask ARRAY_IS_IMAGE, and call fm_load_NAME and fm_store_NAME then
 // A method with places of its own defines OWN_ARRAY_SLOT and array_slot() before it includes this.
+#if defined(LAYOUT_IMAGE) && LAYOUT == LAYOUT_IMAGE
+#define ARRAY_IS_IMAGE 1
+#else
+#define ARRAY_IS_IMAGE 0
+#endif
 #ifndef OWN_ARRAY_SLOT
 uint array_slot(uvec2 pixel, uint i, uint length)
 {

@@ -30,11 +30,20 @@ uvec2 fm_pack(float depth, uint colour)
 }
 const uint FM_EMPTY_BITS = 0x7F800000u; // +infinity: farther than any fragment, 1.0 included
 
-// Orders memory accesses of this invocation as others see them, where the hardware needs it.
+// What invocations share, for the memory model.
+#define FM_SHARED_STORAGE (gl_StorageSemanticsBuffer | gl_StorageSemanticsImage)
+
+// Orders accesses of this invocation to buffers and images as others see them, where the hardware needs it.
 void fm_fence()
 {
-#if FM_LOCK_BARRIERS
+#if FM_MEMORY_MODEL
+    memoryBarrier(gl_ScopeDevice, FM_SHARED_STORAGE,
+                  gl_SemanticsAcquireRelease | gl_SemanticsMakeAvailable | gl_SemanticsMakeVisible);
+#elif FM_LOCK_BARRIERS
     memoryBarrierBuffer();
+#if FM_IMAGES
+    memoryBarrierImage();
+#endif
 #endif
 }
 

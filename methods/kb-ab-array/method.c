@@ -13,8 +13,8 @@ const fm_method_desc fm_method = {
     .marker = FM_MARKER_SQUARE,
     .dashed = true,
     .options = {
-        { .name = "layout", .values = { "pixel", "layer", "tile" },
-          .help = "side by side: a pixel's, the i-th of all pixels, or of a tile" },
+        { .name = "layout", .values = { "pixel", "layer", "tile", "image" },
+          .help = "side by side: a pixel's, the i-th of all pixels, or of a tile; image: a layer each" },
         { .name = "select", .values = { "registers", "heap", "farthest" },
           .help = "the k nearest so far: in order, as a heap, or as the paper's farthest one" },
     },
@@ -22,6 +22,9 @@ const fm_method_desc fm_method = {
         { .name = "counters", .extent = { .per_pixel = 1 }, .used = { .per_pixel = 1 } },
         { .name = "fragments", .element = FM_ELEMENT_UVEC2, .extent = { .per_pixel_n = 1 },
           .used = { .per_fragment = 1 } },
+        { .name = "fragments", .kind = FM_RESOURCE_IMAGE, .format = FM_FORMAT_RG32UI,
+          .extent = { .per_pixel_n = 1 }, .used = { .per_fragment = 1 },
+          .when_option = "layout", .when_value = "image" },
     },
     .passes = {
         { .name = "clear", .kind = FM_PASS_PIXELS, .shader = "ab-array/clear.glsl",

@@ -10,7 +10,11 @@ const uint EMPTY = 0xFFFFFFFFu;
 
 uint key_at(uvec2 pixel, uint i)
 {
+#if ARRAY_IS_IMAGE
+    return fm_load_keys(pixel, i).x;
+#else
     return keys[array_slot(pixel, i, K)];
+#endif
 }
 
 #if defined(DEPTH_BITS_PUBLISHED) && DEPTH_BITS == DEPTH_BITS_PUBLISHED

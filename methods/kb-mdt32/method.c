@@ -14,13 +14,20 @@ const fm_method_desc fm_method = {
     .marker = FM_MARKER_CROSS,
     .options = { { .name = "depth_bits", .values = { "exact", "published" },
                    .help = "the float's bits, or the k+-buffer paper's quantisation" },
-                 { .name = "layout", .values = { "pixel", "layer", "tile" },
-                   .help = "side by side: a pixel's, the i-th of all pixels, or of a tile" },
+                 { .name = "layout", .values = { "pixel", "layer", "tile", "image" },
+                   .help = "side by side: a pixel's, the i-th of all pixels, or of a tile; image: a "
+                           "layer each" },
                  { .name = "start", .values = { "auto", "front", "half", "binary" },
                    .help = "slot that a chain begins at: the first, by a look at k/2, searched" } },
     .resources = {
         { .name = "keys", .extent = { .per_pixel_k = 1 }, .used = { .per_kept = 1 } },
+        { .name = "keys", .kind = FM_RESOURCE_IMAGE, .format = FM_FORMAT_R32UI,
+          .extent = { .per_pixel_k = 1 }, .used = { .per_kept = 1 },
+          .when_option = "layout", .when_value = "image" },
         { .name = "colours", .extent = { .per_pixel_k = 1 }, .used = { .per_kept = 1 } },
+        { .name = "colours", .kind = FM_RESOURCE_IMAGE, .format = FM_FORMAT_R32UI,
+          .extent = { .per_pixel_k = 1 }, .used = { .per_kept = 1 },
+          .when_option = "layout", .when_value = "image" },
     },
     .passes = {
         { .name = "clear", .kind = FM_PASS_PIXELS, .shader = "clear.glsl",

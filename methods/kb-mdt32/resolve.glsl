@@ -2,7 +2,11 @@
 
 uint colour_at(uvec2 pixel, uint i)
 {
+#if ARRAY_IS_IMAGE
+    return fm_load_colours(pixel, i).x;
+#else
     return colours[array_slot(pixel, i, K)];
+#endif
 }
 
 void resolve(uvec2 pixel)

@@ -3,14 +3,22 @@
 
 void put_key(uvec2 pixel, uint i, uint key)
 {
+#if ARRAY_IS_IMAGE
+    fm_store_keys(pixel, i, uvec4(key, 0u, 0u, 0u));
+#else
     keys[array_slot(pixel, i, K)] = key;
+#endif
 }
 
 // Fragments of a pixel collide here: each call leaves the smaller of two keys and hands the other to its
 // caller, so none is lost.
 uint sink_at(uvec2 pixel, uint i, uint key)
 {
+#if ARRAY_IS_IMAGE
+    return imageAtomicMin(fm_image_keys, ivec3(pixel, i), key);
+#else
     return atomicMin(keys[array_slot(pixel, i, K)], key);
+#endif
 }
 
 // The chain from slot i on: each slot keeps the nearer of its key and the new one, and the farther one

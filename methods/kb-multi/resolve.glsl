@@ -1,4 +1,3 @@
-#include "common/array.glsl"
 #if FM_RESUMES
 #define PLACES K
 #include "ab-array/places.glsl"
@@ -10,6 +9,7 @@ void resolve(uvec2 pixel)
     emit_in_place(pixel, uint(K));
 }
 #else
+#include "common/kept.glsl"
 #define SORT_CAPACITY K
 #include "common/sort.glsl"
 
@@ -17,7 +17,7 @@ void resolve(uvec2 pixel)
 {
     uint count = 0u;
     FM_LOOP for (uint i = 0u; i < K; ++i) {
-        uvec2 fragment = fragments[array_slot(pixel, i, K)];
+        uvec2 fragment = kept_at(pixel, i);
         if (fragment.x != FM_EMPTY_BITS)
             sorted[count++] = fragment;
     }

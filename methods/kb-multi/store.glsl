@@ -1,4 +1,4 @@
-#include "common/array.glsl"
+#include "common/kept.glsl"
 
 // A fragment takes the place of the farthest if it is nearer, unless its depth is there already.
 // Nothing keeps two fragments of a pixel apart: both may take the same place, and then one is lost
@@ -10,13 +10,13 @@ void store(uvec2 pixel, float depth, uint colour)
     uint farthest = 0u, farthest_bits = 0u;
     bool is_there = false;
     FM_LOOP for (uint i = 0u; i < K; ++i) {
-        uint bits = fragments[array_slot(pixel, i, K)].x;
+        uint bits = kept_bits_at(pixel, i);
         is_there = is_there || bits == fragment.x;
         farthest = bits > farthest_bits ? i : farthest;
         farthest_bits = max(bits, farthest_bits);
     }
     if (is_there || fragment.x >= farthest_bits)
         return;
-    fragments[array_slot(pixel, farthest, K)] = fragment;
+    keep_at(pixel, farthest, fragment);
     changed[0] = 1u; // all write the same
 }

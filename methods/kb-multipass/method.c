@@ -15,12 +15,16 @@ const fm_method_desc fm_method = {
     .options = {
         { .name = "slots", .values = { "8", "16", "4", "2", "1", "32" },
           .help = "fragments of a pixel that one pass keeps: the render targets" },
-        { .name = "layout", .values = { "pixel", "layer", "tile" },
-          .help = "side by side: a pixel's, the i-th of all pixels, or of a tile" },
+        { .name = "layout", .values = { "pixel", "layer", "tile", "image" },
+          .help = "side by side: a pixel's, the i-th of all pixels, or of a tile; image: a "
+                           "layer each" },
     },
     .resources = {
         { .name = "fragments", .element = FM_ELEMENT_UVEC2,
           .extent = { .per_pixel_option = 1, .option = "slots" }, .used = { .per_kept = 1 } },
+        { .name = "fragments", .kind = FM_RESOURCE_IMAGE, .format = FM_FORMAT_RG32UI,
+          .extent = { .per_pixel_option = 1, .option = "slots" }, .used = { .per_kept = 1 },
+          .when_option = "layout", .when_value = "image" },
         { .name = "boundary", .extent = { .per_pixel = 1 }, .used = { .per_pixel = 1 } },
         { .name = "left", .extent = { .constant = 1 } }, /* 1 when another pass is needed */
     },

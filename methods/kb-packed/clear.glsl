@@ -3,5 +3,5 @@
 void clear(uvec2 pixel)
 {
     FM_LOOP for (uint i = 0u; i < PAIRS; ++i)
-        pairs[pair_slot(pixel, i)] = uvec4(FM_EMPTY_BITS, 0u, FM_EMPTY_BITS, 0u);
+        put_pair(pixel, i, uvec4(FM_EMPTY_BITS, 0u, FM_EMPTY_BITS, 0u));
 }

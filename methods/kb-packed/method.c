@@ -11,11 +11,15 @@ const fm_method_desc fm_method = {
     .keeps = FM_KEEPS_K_NEAREST,
     .family = FM_FAMILY_K_BUFFER,
     .marker = FM_MARKER_DIAMOND,
-    .options = { { .name = "layout", .values = { "pixel", "layer", "tile" },
-                   .help = "side by side: a pixel's, the i-th of all pixels, or of a tile" } },
+    .options = { { .name = "layout", .values = { "pixel", "layer", "tile", "image" },
+                   .help = "side by side: a pixel's, the i-th of all pixels, or of a tile; image: a "
+                           "layer each" } },
     .resources = {
         { .name = "pairs", .element = FM_ELEMENT_UVEC4,
           .extent = { .per_pixel_k = 1, .k_step = 2 }, .used = { .per_kept = 1 } },
+        { .name = "pairs", .kind = FM_RESOURCE_IMAGE, .format = FM_FORMAT_RGBA32UI,
+          .extent = { .per_pixel_k = 1, .k_step = 2 }, .used = { .per_kept = 1 },
+          .when_option = "layout", .when_value = "image" },
     },
     .passes = {
         { .name = "clear", .kind = FM_PASS_PIXELS, .shader = "clear.glsl", .writes = { "pairs" } },

@@ -6,11 +6,10 @@ void store(uvec2 pixel, float depth, uint colour)
 {
     uvec2 sinking = fm_pack(depth, colour);
     FM_LOOP for (uint i = 0u; i < PAIRS; ++i) {
-        uint at = pair_slot(pixel, i);
-        uvec4 pair = pairs[at];
+        uvec4 pair = pair_at(pixel, i);
         if (sinking.x > pair.z)
             continue;
-        pairs[at] = sinking.x <= pair.x ? uvec4(sinking, pair.xy) : uvec4(pair.xy, sinking);
+        put_pair(pixel, i, sinking.x <= pair.x ? uvec4(sinking, pair.xy) : uvec4(pair.xy, sinking));
         sinking = pair.zw;
     }
 }

@@ -13,12 +13,16 @@ const fm_method_desc fm_method = {
     .family = FM_FAMILY_K_BUFFER,
     .marker = FM_MARKER_SQUARE,
     .dashed = true,
-    .options = { { .name = "layout", .values = { "pixel", "layer", "tile" },
-                   .help = "side by side: a pixel's, the i-th of all pixels, or of a tile" } },
+    .options = { { .name = "layout", .values = { "pixel", "layer", "tile", "image" },
+                   .help = "side by side: a pixel's, the i-th of all pixels, or of a tile; image: a "
+                           "layer each" } },
     .resources = {
         { .name = "arrivals", .extent = { .per_pixel = 1 }, .used = { .per_pixel = 1 } },
         { .name = "fragments", .element = FM_ELEMENT_UVEC2, .extent = { .per_pixel_k = 1 },
           .used = { .per_kept = 1 } },
+        { .name = "fragments", .kind = FM_RESOURCE_IMAGE, .format = FM_FORMAT_RG32UI,
+          .extent = { .per_pixel_k = 1 }, .used = { .per_kept = 1 },
+          .when_option = "layout", .when_value = "image" },
     },
     .passes = {
         { .name = "clear", .kind = FM_PASS_CLEAR, .writes = { "arrivals" } },

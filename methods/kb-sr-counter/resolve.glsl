@@ -1,4 +1,3 @@
-#include "common/array.glsl"
 #if FM_RESUMES
 #define PLACES K
 #include "ab-array/places.glsl"
@@ -10,6 +9,7 @@ void resolve(uvec2 pixel)
     emit_in_place(pixel, min(arrivals[fm_pixel_index(pixel)], K));
 }
 #else
+#include "common/kept.glsl"
 #define SORT_CAPACITY K
 #include "common/sort.glsl"
 
@@ -17,7 +17,7 @@ void resolve(uvec2 pixel)
 {
     uint count = min(arrivals[fm_pixel_index(pixel)], K);
     FM_LOOP for (uint i = 0u; i < count; ++i)
-        sorted[i] = fragments[array_slot(pixel, i, K)];
+        sorted[i] = kept_at(pixel, i);
     sort_fragments(count);
     emit_sorted(pixel, count);
 }

@@ -1,4 +1,4 @@
-#include "common/array.glsl"
+#include "common/kept.glsl"
 
 void store(uvec2 pixel, float depth, uint colour)
 {
@@ -6,5 +6,5 @@ void store(uvec2 pixel, float depth, uint colour)
     // with the stencil, arrivals after the k-th find none: that is the method, not a loss of storage.
     uint arrival = atomicAdd(arrivals[fm_pixel_index(pixel)], 1u);
     if (arrival < K)
-        fragments[array_slot(pixel, arrival, K)] = fm_pack(depth, colour);
+        keep_at(pixel, arrival, fm_pack(depth, colour));
 }

@@ -1,4 +1,3 @@
-#include "common/array.glsl"
 #include "kb/slots.glsl"
 
 // The new fragment sinks through the ascending list; what it displaces sinks on, and what falls out
@@ -6,10 +5,9 @@
 uvec2 insert(uvec2 pixel, uvec2 sinking)
 {
     FM_LOOP for (uint i = 0u; i < SLOTS; ++i) {
-        uint at = array_slot(pixel, i, SLOTS);
-        uvec2 item = fragments[at];
+        uvec2 item = kept_at(pixel, i);
         if (sinking.x <= item.x) {
-            fragments[at] = sinking;
+            keep_at(pixel, i, sinking);
             sinking = item;
         }
     }

@@ -2,3 +2,5 @@
 #ifndef SLOTS
 #define SLOTS K
 #endif
+#define KEPT_PLACES SLOTS
+#include "common/kept.glsl"

@@ -11,14 +11,18 @@ const fm_method_desc fm_method = {
     .keeps = FM_KEEPS_K_NEAREST,
     .family = FM_FAMILY_K_PLUS_BUFFER,
     .marker = FM_MARKER_DIAMOND,
-    .options = { { .name = "layout", .values = { "pixel", "layer", "tile" },
-                   .help = "side by side: a pixel's, the i-th of all pixels, or of a tile" },
+    .options = { { .name = "layout", .values = { "pixel", "layer", "tile", "image" },
+                   .help = "side by side: a pixel's, the i-th of all pixels, or of a tile; image: a "
+                           "layer each" },
                  { .name = "children", .values = { "4", "2" },
                    .help = "of a slot of the heap; the paper has 2" } },
     .resources = {
         { .name = "counters", .extent = { .per_pixel = 1 }, .used = { .per_pixel = 1 } },
         { .name = "fragments", .element = FM_ELEMENT_UVEC2, .extent = { .per_pixel_k = 1 },
           .used = { .per_kept = 1 } },
+        { .name = "fragments", .kind = FM_RESOURCE_IMAGE, .format = FM_FORMAT_RG32UI,
+          .extent = { .per_pixel_k = 1 }, .used = { .per_kept = 1 },
+          .when_option = "layout", .when_value = "image" },
     },
     .passes = {
         { .name = "clear", .kind = FM_PASS_PIXELS, .shader = "clear.glsl",

@@ -19,6 +19,6 @@ void store(uvec2 pixel, float depth, uint colour)
     uvec2 over = insert(pixel, fm_pack(depth, colour));
     if (over.x == FM_EMPTY_BITS)
         return;
-    uint last = array_slot(pixel, K - 1u, K);
-    fragments[last].y = merge(fragments[last].y, over.y);
+    uvec2 last = kept_at(pixel, K - 1u);
+    keep_at(pixel, K - 1u, uvec2(last.x, merge(last.y, over.y)));
 }

@@ -4,6 +4,7 @@
 #include "cli.h"
 #include "describe/describe.h"
 #include "model/outcome.h"
+#include "parent/plan_look.h"
 #include "truth/kept_file.h"
 
 enum {
@@ -334,6 +335,7 @@ fm_status arguments_expand(fm_plan *plan, const fm_plugin_list *plugins,
         .devices = text_list_items(&arguments->devices),
         .feeds = text_list_items(&arguments->feeds),
         .axes = text_list_items(&arguments->axes),
+        .ask = device_look,
     };
     return plan_expand(plan, &request, plugins, err);
 }

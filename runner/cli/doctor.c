@@ -78,15 +78,17 @@ static json_t *features_json(const fm_device_caps *caps)
 static json_t *caps_json(const char *selector, const fm_device_caps *caps)
 {
     return json_pack(
-        "{s:s, s:s, s:s, s:s, s:b, s:b, s:o, s:o, s:o, s:i, s:i, s:i, s:I, s:I, s:I, s:f}",
+        "{s:s, s:s, s:s, s:s, s:b, s:b, s:o, s:o, s:o, s:i, s:i, s:i, s:I, s:I, s:i, s:I, s:I, "
+        "s:f}",
         "selector", selector, "name", caps->name, "driver", caps->driver, "api", caps->api,
         "is_software", (int)caps->is_software, "has_gpu_clock", (int)caps->has_gpu_clock,
         "features", features_json(caps), "colour_samples", samples_json(caps->colour_samples),
         "depth_samples", samples_json(caps->depth_samples), "max_targets", (int)caps->max_targets,
         "subgroup_size", (int)caps->subgroup_size, "loop_limit", (int)caps->loop_limit,
         "storage_range_bytes", (json_int_t)caps->storage_range_bytes, "buffer_max_bytes",
-        (json_int_t)caps->buffer_max_bytes, "memory_bytes", (json_int_t)caps->memory_bytes,
-        "timestamp_ns", caps->timestamp_ns);
+        (json_int_t)caps->buffer_max_bytes, "image_layers", (int)caps->image_layers,
+        "image_max_bytes", (json_int_t)caps->image_max_bytes, "memory_bytes",
+        (json_int_t)caps->memory_bytes, "timestamp_ns", caps->timestamp_ns);
 }
 
 static json_t *device_json(const fm_device_list *devices, const char *selector)

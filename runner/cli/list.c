@@ -40,7 +40,7 @@ static json_t *method_row(const fm_plugin_entry *entry)
         return json_pack("{s:s, s:s}", "id", entry->id, "refused", entry->error.message);
     const fm_method_desc *method = entry->plugin->method;
     feed_names(feeds, method_feeds(method));
-    json_t *row = method_json(method);
+    json_t *row = method_json(method, NULL);
     json_object_set_new(row, "id", json_string(entry->id));
     json_object_set_new(row, "folder", json_string(entry->plugin->folder));
     json_object_set_new(row, "feeds", names_json(feeds));

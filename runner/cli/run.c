@@ -210,6 +210,10 @@ int cli_run_plan(const fm_arguments *arguments, const cli_run_desc *desc)
     };
     if (expect_devices(arguments->cli->devices, desc->plan, &err) != FM_OK)
         return cli_fail(arguments->cli, &err);
+    if (desc->plan->unknown.status != FM_OK) {
+        cli_fail(arguments->cli, &desc->plan->unknown);
+        return CLI_INCOMPLETE; /* the device may be there another time */
+    }
     /* Who reads the talk may go (`| head`): that costs the talk, and not a run of hours. */
     signal(SIGPIPE, SIG_IGN);
     fm_status status = run_cases(&result, desc->plan, desc->plugins, &run, &err);

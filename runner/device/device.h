@@ -67,6 +67,7 @@ typedef struct fm_device_caps {
     bool needs_helper_guard;  /* helper lanes reach atomics: shaders leave before any lock */
     bool needs_lock_barriers; /* memory barriers around a lock's section are needed (and work) */
     bool counts_accesses;     /* fm_pipeline_desc.counting can be */
+    bool has_memory_model;    /* shaders may use Vulkan's, with the scope of the whole device */
     uint32_t loop_limit;      /* most iterations of all loops of an invocation, after which they end
                                  without a word; 0: none */
     uint32_t subgroup_size;   /* lanes; 0: not known */
@@ -75,6 +76,8 @@ typedef struct fm_device_caps {
     uint32_t max_targets;     /* of a draw, FM_MAX_TARGETS at most */
     uint64_t storage_range_bytes; /* largest buffer that is bound (FM_BINDING_STORAGE) */
     uint64_t buffer_max_bytes;    /* largest by address; 0: without FM_FEATURE_BUFFER_ADDRESS */
+    uint32_t image_layers;        /* most layers of an image */
+    uint64_t image_max_bytes;     /* largest image, of all its layers */
     uint64_t memory_bytes;        /* of the device, its largest heap; 0: not known */
     uint32_t max_groups[3];       /* workgroups of a dispatch, for each axis */
     double timestamp_ns;          /* one tick of the device's clock; 0: timers read 0 */
@@ -115,6 +118,7 @@ typedef struct fm_image_desc {
     fm_format format;             /* not FM_FORMAT_NONE */
     uint32_t width_px, height_px; /* > 0 */
     uint32_t layers;              /* 0 is 1; more make an array in shaders: sampler2DArray */
+    bool is_array;                /* one layer does, too */
     uint32_t samples;             /* 0 is 1; more make sampler2DMS; a bit of caps.*_samples */
     fm_owner owner;               /* who the ledger books it for */
 } fm_image_desc;

@@ -25,8 +25,8 @@ static void fill_view(hook_view *view, const fm_instance *instance)
     memcpy(&view->workload, &instance->workload, sizeof view->workload);
     memcpy(view->totals, instance->totals, sizeof view->totals);
     view->method = instance->method;
-    view->choices = instance->desc.choices;
-    view->choice_count = instance->desc.choice_count;
+    view->choices = instance->choices;
+    view->choice_count = instance->choice_count;
     view->workload.totals = view->totals;
     view->workload.option = view_option;
     view->workload.runner = view;

@@ -7,8 +7,7 @@
 static const char *workload_option(const fm_workload *workload, const char *name)
 {
     const fm_instance *instance = workload->runner;
-    return option_chosen(instance->method, name, instance->desc.choices,
-                         instance->desc.choice_count);
+    return option_chosen(instance->method, name, instance->choices, instance->choice_count);
 }
 
 static const struct feature_words {
@@ -87,6 +86,27 @@ static void name_slots(fm_instance *instance)
         (fm_slot){ .name = "fm_locks", .type = "uint", .in_table = true, .table_index = line };
 }
 
+size_t instance_choices(fm_choice all[FM_MAX_OPTIONS], const fm_instance_desc *desc)
+{
+    const fm_device_caps *caps = &desc->stage->device->caps;
+    const fm_layout_case of = { .method = desc->method,
+                                .width_px = desc->stage->scene->width_px,
+                                .height_px = desc->stage->scene->height_px,
+                                .k = desc->settings->k,
+                                .n = desc->stage->n };
+    const fm_layout_device device = { .is_software = caps->is_software,
+                                      .image_layers = caps->image_layers,
+                                      .image_max_bytes = caps->image_max_bytes };
+    return layout_choices(all, desc->choices, desc->choice_count, &of, &device);
+}
+
+static void choose(fm_instance *instance, const fm_instance_desc *desc)
+{
+    instance->choice_count = instance_choices(instance->choices, desc);
+    method_choose(&instance->chosen, desc->method, instance->choices, instance->choice_count);
+    instance->method = &instance->chosen;
+}
+
 static void fill_workload(fm_instance *instance, const fm_instance_desc *desc)
 {
     const fm_scene *scene = desc->stage->scene;
@@ -115,13 +135,13 @@ fm_status instance_create(fm_instance **out, const fm_instance_desc *desc, fm_er
     if (instance == NULL)
         return fm_fail(err, FM_NO_MEMORY, "%s", desc->method->id);
     instance->desc = *desc;
-    instance->method = desc->method;
+    choose(instance, desc);
     instance->device = desc->stage->device;
     instance->is_spin_locked = any_exclusive(desc->method) && desc->settings->lock == FM_LOCK_SPIN;
     instance->emits_back = (desc->method->traits & FM_TRAIT_EMITS_BACK) != 0;
-    instance->pass_count = pass_count(desc->method);
-    instance->resource_count = resource_count(desc->method);
-    instance->total_count = total_count(desc->method);
+    instance->pass_count = pass_count(instance->method);
+    instance->resource_count = resource_count(instance->method);
+    instance->total_count = total_count(instance->method);
     fill_workload(instance, desc);
     name_slots(instance);
     fm_status status = check_device(instance, err);

@@ -7,7 +7,7 @@
 #ifndef FM_INSTANCE_H
 #define FM_INSTANCE_H
 
-#include "model/descriptor.h"
+#include "model/layout.h"
 #include "plugin/hook_mark.h"
 #include "stage/stage.h"
 
@@ -18,7 +18,7 @@ typedef struct fm_instance_desc {
     const fm_method_desc *method;
     fm_shader_folders folders;
     const fm_settings *settings; /* k, lock, pool, full_screen, timers, accumulate, composite */
-    const fm_choice *choices;
+    const fm_choice *choices;    /* see instance_choices */
     size_t choice_count;
     uint64_t fragments, fragments_kept; /* F and F_k of the scene, for formulas */
     bool is_capture;
@@ -62,6 +62,11 @@ typedef struct fm_accesses {
 
 /* Of all passes together: their sum, or the span. */
 uint64_t frame_passes_ns(const fm_frame_result *result);
+
+/* All options of the method with their values: what is missing is at its default, and layout=auto
+ * is worked out for the stage's device. Returns their number. What is done to the method before
+ * instance_create has to know them. Of the descriptor stage, method, settings and choices count. */
+size_t instance_choices(fm_choice all[FM_MAX_OPTIONS], const fm_instance_desc *desc);
 
 /* FM_UNSUPPORTED: the device lacks something, with the reason; FM_SHADER: with plugin and pass. */
 fm_status instance_create(fm_instance **instance, const fm_instance_desc *desc, fm_error *err);

@@ -42,7 +42,10 @@ typedef struct built_pass {
 
 struct fm_instance {
     fm_instance_desc desc;
-    const fm_method_desc *method;
+    fm_choice choices[FM_MAX_OPTIONS]; /* all of the method's options, nothing left open */
+    size_t choice_count;
+    fm_method_desc chosen;        /* the method with the resources that its options ask for */
+    const fm_method_desc *method; /* that */
     fm_device *device;
     fm_workload workload;
     uint64_t totals[FM_MAX_TOTALS];
@@ -109,6 +112,8 @@ uint32_t pass_feed_step(const fm_instance *instance, const fm_pass *pass);
 bool pass_reads_triangles(const fm_instance *instance, const fm_pass *pass);
 /* Its store() is guarded by the device's interlock, not by a spin lock. */
 bool pass_has_interlock(const fm_instance *instance, const fm_pass *pass);
+/* Its lock acquires and releases by Vulkan's memory model, instead of barriers. */
+bool pass_has_memory_model(const fm_instance *instance, const fm_pass *pass);
 /* The first pass that emits: it starts the picture. */
 bool pass_emits_first(const fm_instance *instance, const fm_pass *pass);
 /* What a scene pass draws. */

@@ -72,11 +72,13 @@ static fm_status create_image(fm_instance *instance, fm_slot *slot, const fm_res
     slot->format = resource->format;
     slot->samples = resource_samples(instance, resource);
     slot->layers = formula_layers(resource, &instance->workload);
+    slot->is_array = image_is_array(resource);
     const fm_image_desc desc = { .name = resource->name,
                                  .format = slot->format,
                                  .width_px = instance->workload.width_px,
                                  .height_px = instance->workload.height_px,
                                  .layers = slot->layers,
+                                 .is_array = slot->is_array,
                                  .samples = slot->samples,
                                  .owner = FM_OWNER_METHOD };
     return instance->device->ops->image_create(&slot->image, instance->device, &desc, err);

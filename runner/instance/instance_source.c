@@ -112,6 +112,15 @@ static bool any_address(const built_pass *built)
     return false;
 }
 
+static bool stores_images(const built_pass *built)
+{
+    for (size_t i = 0; i < built->use_count; i++)
+        if (built->uses[i].slot->format != FM_FORMAT_NONE &&
+            (built->uses[i].access & FM_ACCESS_WRITE) != 0)
+            return true;
+    return false;
+}
+
 /* Interlock is the lock's, not the method's; buffers choose how they are reached. */
 static uint32_t features_of(const built_pass *built, const fm_instance *instance,
                             const fm_pass *pass)
@@ -133,6 +142,10 @@ fm_status pass_source(fm_text *text, const built_pass *built, const fm_instance 
 {
     const size_t skipped = built->is_drawn ? built->stage_use_count : 0;
     shader_begin(text, &instance->device->caps, features_of(built, instance, pass));
+    if (pass_has_memory_model(instance, pass))
+        text_add(text, "#extension GL_KHR_memory_scope_semantics : require\n"
+                       "#pragma use_vulkan_memory_model\n");
+    shader_define(text, "FM_IMAGES", stores_images(built));
     if (!built->is_drawn)
         text_add(text, "layout(local_size_x = %d) in;\n", STAGE_GROUP_SIZE);
     pass_define(text, instance, pass);

@@ -61,7 +61,8 @@ static void define_counters(fm_text *text)
     shader_define(text, "FM_COUNTER_CUT", STAGE_COUNTER_CUT);
 }
 
-static bool release_exchanges(const fm_instance *instance)
+/* By itself a lock is freed by a store where that is enough. */
+static bool release_exchanges(const fm_instance *instance, const fm_pass *pass)
 {
     switch (instance->desc.settings->release) {
     case FM_RELEASE_AUTO:
@@ -72,7 +73,7 @@ static bool release_exchanges(const fm_instance *instance)
     case FM_RELEASE_EXCHANGE:
         return true;
     }
-    return instance->device->caps.needs_lock_barriers;
+    return instance->device->caps.needs_lock_barriers && !pass_has_memory_model(instance, pass);
 }
 
 /* What a frame that is timed does not need to be told: far from the limit the checked one, which
@@ -91,7 +92,8 @@ void pass_define(fm_text *text, const fm_instance *instance, const fm_pass *pass
     shader_define(text, "K", instance->workload.k > 0 ? instance->workload.k : 1);
     shader_define(text, "N", instance->workload.n > 0 ? instance->workload.n : 1);
     shader_define(text, "FM_SPIN_MAX", caps->loop_limit > 0 ? SPIN_MAX_SOFTWARE : SPIN_MAX);
-    shader_define(text, "FM_LOCK_EXCHANGE", release_exchanges(instance));
+    shader_define(text, "FM_LOCK_EXCHANGE", release_exchanges(instance, pass));
+    shader_define(text, "FM_MEMORY_MODEL", pass_has_memory_model(instance, pass));
     shader_define(text, "FM_EXCLUSIVE", pass->exclusive && instance->is_spin_locked);
     shader_define(text, "FM_INTERLOCK", pass_has_interlock(instance, pass));
     shader_define(text, "FM_TARGETS", pass_has_fixed_function(pass));
@@ -129,5 +131,5 @@ void pass_define(fm_text *text, const fm_instance *instance, const fm_pass *pass
     for (int i = 0; i < FM_MAX_OPTIONS && instance->method->options[i].name != NULL; i++)
         define_option(text, &instance->method->options[i],
                       option_chosen(instance->method, instance->method->options[i].name,
-                                    instance->desc.choices, instance->desc.choice_count));
+                                    instance->choices, instance->choice_count));
 }

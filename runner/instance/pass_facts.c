@@ -113,6 +113,13 @@ bool pass_has_interlock(const fm_instance *instance, const fm_pass *pass)
 }
 
 /* The first pass that emits starts the picture. */
+bool pass_has_memory_model(const fm_instance *instance, const fm_pass *pass)
+{
+    const fm_device_caps *caps = &instance->device->caps;
+    return pass->exclusive && instance->is_spin_locked && caps->needs_lock_barriers &&
+           caps->has_memory_model;
+}
+
 bool pass_emits_first(const fm_instance *instance, const fm_pass *pass)
 {
     for (const fm_pass *before = instance->method->passes; before < pass; before++)

@@ -1,5 +1,6 @@
 /* The resources that a pass uses, in the order of their bindings. */
 #include "instance_internal.h"
+#include "model/formats.h"
 
 static void add_use(built_pass *built, fm_slot *slot, uint32_t access, bool is_coherent,
                     resource_ref ref)
@@ -50,8 +51,11 @@ static uint32_t read_access(const fm_instance *instance, const fm_pass *pass, co
 {
     const fm_resource *resource =
         &instance->method->resources[resource_find(instance->method, name).index];
-    const bool may_write = pass->resumes != FM_RESUMES_NEVER && pass_resumes(instance, pass) &&
-                           resource->kind == FM_RESOURCE_BUFFER;
+    const bool can_store =
+        resource->kind == FM_RESOURCE_BUFFER ||
+        (!format_has_depth(resource->format) && resource_samples(instance, resource) == 1);
+    const bool may_write =
+        pass->resumes != FM_RESUMES_NEVER && pass_resumes(instance, pass) && can_store;
     return may_write ? FM_ACCESS_READ | FM_ACCESS_WRITE : FM_ACCESS_READ;
 }
 

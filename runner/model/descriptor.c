@@ -59,3 +59,38 @@ bool option_has_value(const fm_option *option, const char *value)
             return true;
     return false;
 }
+
+static bool condition_holds(const fm_resource *resource, const fm_method_desc *method,
+                            const fm_choice *choices, size_t choice_count)
+{
+    const char *value = option_chosen(method, resource->when_option, choices, choice_count);
+    return value != NULL && strcmp(value, resource->when_value) == 0;
+}
+
+static bool is_replaced(const fm_resource *resource, const fm_method_desc *method,
+                        const fm_choice *choices, size_t choice_count)
+{
+    for (size_t i = 0; i < resource_count(method); i++) {
+        const fm_resource *other = &method->resources[i];
+        if (other->when_option != NULL && strcmp(other->name, resource->name) == 0 &&
+            condition_holds(other, method, choices, choice_count))
+            return true;
+    }
+    return false;
+}
+
+void method_choose(fm_method_desc *chosen, const fm_method_desc *method, const fm_choice *choices,
+                   size_t choice_count)
+{
+    size_t count = 0;
+    *chosen = *method;
+    memset(chosen->resources, 0, sizeof chosen->resources);
+    for (size_t i = 0; i < resource_count(method); i++) {
+        const fm_resource *resource = &method->resources[i];
+        const bool is_there = resource->when_option != NULL
+                                  ? condition_holds(resource, method, choices, choice_count)
+                                  : !is_replaced(resource, method, choices, choice_count);
+        if (is_there)
+            chosen->resources[count++] = *resource;
+    }
+}

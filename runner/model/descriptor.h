@@ -25,6 +25,12 @@ typedef struct fm_choice {
 const fm_option *option_find(const fm_method_desc *method, const char *name);
 /* Whether the option may have this value; values compare as texts. */
 bool option_has_value(const fm_option *option, const char *value);
+/* The method with the resources that are there under these choices: of each name one, the one whose
+ * condition holds (fm_resource.when_option), or else the one without. What was chosen already
+ * stays. Borrows from the method. */
+void method_choose(fm_method_desc *chosen, const fm_method_desc *method, const fm_choice *choices,
+                   size_t choice_count);
+
 /* What is chosen for the method's option: one of `choices`, or its first value; NULL: it has no
  * option of that name. */
 const char *option_chosen(const fm_method_desc *method, const char *name, const fm_choice *choices,

@@ -63,10 +63,27 @@ uint64_t formula_elements(const fm_method_desc *method, const fm_extent *extent,
     return elements;
 }
 
+/* Elements of each pixel, as far as they do not hang on anything else. */
+static uint64_t elements_of_pixel(const fm_extent *extent, const fm_workload *workload)
+{
+    const uint64_t step = extent->k_step > 0 ? extent->k_step : 1;
+    return extent->per_pixel + extent->per_pixel_k * ((workload->k + step - 1) / step) +
+           extent->per_pixel_n * workload->n +
+           extent->per_pixel_option * option_number(workload, extent->option);
+}
+
 uint32_t formula_layers(const fm_resource *resource, const fm_workload *workload)
 {
-    const uint32_t layers = resource->layers + resource->layers_per_k * workload->k;
-    return layers > 0 ? layers : 1;
+    const uint64_t layers = resource->layers + (uint64_t)resource->layers_per_k * workload->k +
+                            elements_of_pixel(&resource->extent, workload);
+    return layers == 0 ? 1 : layers < UINT32_MAX ? (uint32_t)layers : UINT32_MAX;
+}
+
+bool image_is_array(const fm_resource *resource)
+{
+    const fm_extent *e = &resource->extent;
+    return resource->layers > 1 || resource->layers_per_k > 0 ||
+           (e->per_pixel | e->per_pixel_k | e->per_pixel_n | e->per_pixel_option) != 0;
 }
 
 uint32_t formula_samples(const fm_resource *resource, const fm_workload *workload)
@@ -141,12 +158,20 @@ uint64_t formula_bytes(const fm_method_desc *method, const fm_workload *workload
     return bytes;
 }
 
+static bool has_used(const fm_used *used)
+{
+    return (used->per_pixel | used->per_fragment | used->per_kept) != 0;
+}
+
 uint64_t formula_used_bytes(const fm_resource *resource, const fm_workload *workload)
 {
     const uint64_t pixels = (uint64_t)workload->width_px * workload->height_px;
     const uint64_t elements = resource->used.per_pixel * pixels +
                               resource->used.per_fragment * workload->fragments +
                               resource->used.per_kept * workload->fragments_kept;
-    return resource->kind == FM_RESOURCE_IMAGE ? formula_image_bytes(resource, workload)
-                                               : elements * element_bytes(resource->element);
+    if (resource->kind == FM_RESOURCE_BUFFER)
+        return elements * element_bytes(resource->element);
+    const uint64_t whole = formula_image_bytes(resource, workload);
+    const uint64_t used = elements * format_bytes(resource->format);
+    return has_used(&resource->used) && used < whole ? used : whole;
 }

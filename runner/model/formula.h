@@ -11,12 +11,14 @@ uint64_t formula_elements(const fm_method_desc *method, const fm_extent *extent,
                           const fm_workload *workload);
 /* Array layers of an image: 1 at least. */
 uint32_t formula_layers(const fm_resource *resource, const fm_workload *workload);
+/* Whether shaders name a layer of the image, though it may be the only one. */
+bool image_is_array(const fm_resource *resource);
 /* Samples of each of its texels: 1 at least, not necessarily a number that a device has. */
 uint32_t formula_samples(const fm_resource *resource, const fm_workload *workload);
 /* Bytes of one copy of an image, as formats book them. */
 uint64_t formula_image_bytes(const fm_resource *resource, const fm_workload *workload);
-/* Bytes of the elements that hold something in a frame (fm_used), however long the buffer is;
- * images count whole. */
+/* Bytes of the elements that hold something in a frame (fm_used), however long the buffer is. Of an
+ * image at most all, and all where fm_used says nothing. */
 uint64_t formula_used_bytes(const fm_resource *resource, const fm_workload *workload);
 /* Bytes of a buffer that shares no other's memory: of its own extent, or of the largest that shares
  * its. */

@@ -55,19 +55,37 @@ static json_t *devices_json(const fm_results *results)
     return devices;
 }
 
-/* "layout=pixel counters=32", as column `options` spells it. */
-static json_t *defaults_json(const fm_method_desc *method)
+/* What layout=auto was worked out to, which may differ between cases. */
+static void add_auto_layouts(fm_text *text, const fm_plan *plan, const fm_method_desc *method)
+{
+    char pair[sizeof((fm_choice *)NULL)->value + 16];
+    for (size_t i = 0; plan != NULL && i < plan->count; i++) {
+        const fm_case *planned = &plan->cases[i];
+        if (!planned->has_auto_layout || strcmp(planned->method, method->id) != 0)
+            continue;
+        snprintf(pair, sizeof pair, " " LAYOUT_OPTION "=%s",
+                 option_chosen(method, LAYOUT_OPTION, planned->choices, planned->choice_count));
+        if (strstr(text->bytes, pair) == NULL)
+            text_add(text, "%s", pair);
+    }
+}
+
+/* "layout=pixel counters=32", as column `options` spells it; an option that was left to the runner
+ * has each value that it got, too. */
+static json_t *defaults_json(const fm_method_desc *method, const fm_plan *plan)
 {
     fm_text text = { 0 };
     for (size_t i = 0; i < FM_MAX_OPTIONS && method->options[i].name != NULL; i++)
         text_add(&text, "%s%s=%s", i > 0 ? " " : "", method->options[i].name,
                  method->options[i].values[0]);
+    if (text.bytes != NULL)
+        add_auto_layouts(&text, plan, method);
     json_t *json = json_string(text.bytes != NULL ? text.bytes : "");
     text_free(&text);
     return json;
 }
 
-json_t *method_json(const fm_method_desc *method)
+json_t *method_json(const fm_method_desc *method, const fm_plan *plan)
 {
     json_t *traits = json_array();
     for (unsigned bit = 0; trait_name(bit) != NULL; bit++)
@@ -77,7 +95,8 @@ json_t *method_json(const fm_method_desc *method)
                      method->title != NULL ? method->title : method->id, "citation",
                      method->citation, "version", method->version, "family",
                      family_name(method->family), "marker", marker_name(method->marker), "dashed",
-                     (int)method->dashed, "traits", traits, "defaults", defaults_json(method));
+                     (int)method->dashed, "traits", traits, "defaults",
+                     defaults_json(method, plan));
 }
 
 static json_t *methods_json(const fm_results *results)
@@ -87,7 +106,7 @@ static json_t *methods_json(const fm_results *results)
         const char *id = results->plan->cases[i].method;
         const fm_plugin_entry *entry = plugin_list_find(results->plugins, id);
         if (entry != NULL && entry->plugin != NULL && json_object_get(methods, id) == NULL)
-            json_object_set_new(methods, id, method_json(entry->plugin->method));
+            json_object_set_new(methods, id, method_json(entry->plugin->method, results->plan));
     }
     return methods;
 }

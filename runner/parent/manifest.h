@@ -20,6 +20,6 @@ const char *manifest_commit(void);
 
 /* A method's descriptor for readers of results: title, citation, version, family, marker, dashed,
  * traits, and the defaults of its options. NULL without memory. */
-json_t *method_json(const fm_method_desc *method);
+json_t *method_json(const fm_method_desc *method, const fm_plan *plan);
 
 #endif

@@ -6,6 +6,7 @@
 
 #include "base/csv.h"
 #include "base/yaml_fields.h"
+#include "model/descriptor.h"
 #include "model/figure_file.h"
 #include "model/formula.h"
 
@@ -112,6 +113,7 @@ typedef struct table_row {
 static fm_status add_cell(const table_job *job, const table_row *row, size_t index)
 {
     uint64_t totals[FM_MAX_TOTALS];
+    fm_method_desc chosen;
     fm_workload workload = { .totals = totals, .option = default_option, .runner = row->method };
     const char *title;
     double value = NAN;
@@ -131,7 +133,8 @@ static fm_status add_cell(const table_job *job, const table_row *row, size_t ind
     const double pixels = (double)workload.width_px * workload.height_px;
     const double added =
         job->added_per_pixel + row->added_per_pixel + row->added_per_pixel_k * (double)workload.k;
-    const double ours = (double)formula_bytes(row->method, &workload) + added * pixels;
+    method_choose(&chosen, row->method, NULL, 0); /* as its options are by default */
+    const double ours = (double)formula_bytes(&chosen, &workload) + added * pixels;
     const char *verdict =
         judge(job->verdicts, ours / mib, printed->text, list_has(row->errata, printed->text));
     csv_add(job->csv, job->figure);

@@ -18,6 +18,7 @@ typedef struct expansion {
     size_t count, capacity;
     fm_text_index ids;
     fm_mesh_memo memo;
+    fm_device_memo *device_memos; /* one for each chosen device */
     fm_error *err;
 } expansion;
 
@@ -126,6 +127,7 @@ static fm_status expand(expansion *state)
             .feed = feeds->items[i % feeds->count],
             .selection = &state->chosen.selection,
             .memo = &state->memo,
+            .device_memo = &state->device_memos[device],
         };
         status = expand_methods(state, &point);
     }
@@ -159,8 +161,31 @@ static void cap_launches(fm_plan *plan)
     plan->launches = most > 0 ? most : plan->launches;
 }
 
-static fm_status expand_all(expansion *state)
+static fm_status make_memos(expansion *state, const fm_plan_request *request)
 {
+    const size_t count = state->chosen.selection.names[FM_LISTED_DEVICES].count;
+    state->device_memos = calloc(count + 1, sizeof *state->device_memos);
+    if (state->device_memos == NULL)
+        return no_memory(state->err);
+    for (size_t i = 0; i < count; i++)
+        state->device_memos[i].request = request;
+    return FM_OK;
+}
+
+/* The first device that could not be asked. */
+static void tell_unknown(fm_plan *plan, const expansion *state)
+{
+    const size_t count = state->chosen.selection.names[FM_LISTED_DEVICES].count;
+    for (size_t i = count; i-- > 0;)
+        if (state->device_memos[i].error.status != FM_OK)
+            plan->unknown = state->device_memos[i].error;
+}
+
+static fm_status expand_all(expansion *state, const fm_plan_request *request)
+{
+    const fm_status status = make_memos(state, request);
+    if (status != FM_OK)
+        return status;
     if (count_cases(&state->chosen) > FM_PLAN_MAX_CASES)
         return fm_fail(state->err, FM_INVALID, "the axes make more than %d cases",
                        FM_PLAN_MAX_CASES);
@@ -175,18 +200,20 @@ fm_status plan_expand(fm_plan *plan, const fm_plan_request *request, const fm_pl
     *plan = (fm_plan){ 0 };
     fm_status status = chosen_create(&state.chosen, request, plugins, state.err);
     if (status == FM_OK)
-        status = expand_all(&state);
+        status = expand_all(&state, request);
     if (status == FM_OK) {
         fill_run(plan, &state.chosen.selection);
         plan->cases = state.cases;
         plan->count = state.count;
         cap_launches(plan);
+        tell_unknown(plan, &state);
         state.cases = NULL;
     }
     for (size_t i = 0; state.cases != NULL && i < state.count; i++)
         plan_case_release(&state.cases[i]);
     text_index_free(&state.ids);
     free(state.cases);
+    free(state.device_memos);
     chosen_destroy(&state.chosen);
     return status;
 }
@@ -306,6 +333,8 @@ fm_status plan_merge(fm_plan *plan, fm_plan *more, fm_error *err)
     if (!has_all)
         return fm_fail(err, FM_NO_MEMORY, "no memory for %zu cases", plan->count + more->count);
     plan->seed = more->seed;
+    if (plan->unknown.status == FM_OK)
+        plan->unknown = more->unknown;
     plan->launches = larger(plan->launches, more->launches);
     plan->frames = larger(plan->frames, more->frames);
     plan->warmup = larger(plan->warmup, more->warmup);

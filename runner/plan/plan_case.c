@@ -150,6 +150,30 @@ static fm_status make_choices(fm_case *made, const fm_plan_point *point,
     return FM_OK;
 }
 
+/* false: nobody knows the device. */
+static bool know_device(const fm_plan_point *point)
+{
+    fm_device_memo *memo = point->device_memo;
+    if (memo == NULL || memo->request->ask == NULL)
+        return false;
+    if (!memo->was_asked)
+        memo->request->ask(&memo->device, memo->request->context, point->device, &memo->error);
+    memo->was_asked = true;
+    return memo->error.status == FM_OK;
+}
+
+static void work_out_layout(fm_case *made, const fm_plan_point *point)
+{
+    const fm_layout_case of = { .method = point->entry->plugin->method,
+                                .width_px = made->settings.width_px,
+                                .height_px = made->settings.height_px,
+                                .k = made->settings.k };
+    for (size_t i = 0; i < made->choice_count; i++)
+        made->has_auto_layout |= layout_is_open(&made->choices[i]);
+    if (made->has_auto_layout && know_device(point))
+        layout_resolve(made->choices, made->choice_count, &of, &point->device_memo->device);
+}
+
 static void list_names(fm_text *why, const char *const *names, size_t count)
 {
     for (size_t i = 0; i < count && names[i] != NULL; i++)
@@ -219,9 +243,10 @@ static fm_reason refuse_choice(fm_text *why, const fm_case *made, const fm_plan_
 
 static fm_reason refuse_passes(fm_text *why, const fm_case *made, const fm_plan_point *point)
 {
-    const fm_method_desc *method = point->entry->plugin->method;
+    fm_method_desc chosen;
     fm_error err;
-    if (culling_check(method, &made->settings, feed_from_name(made->feed), &err) == FM_OK)
+    method_choose(&chosen, point->entry->plugin->method, made->choices, made->choice_count);
+    if (culling_check(&chosen, &made->settings, feed_from_name(made->feed), &err) == FM_OK)
         return FM_REASON_NONE;
     text_add(why, "%s", err.message);
     return err.reason;
@@ -342,6 +367,8 @@ static fm_status make_case(fm_case *made, const fm_plan_point *point, fm_error *
     snprintf(made->feed, sizeof made->feed, "%s", point->feed);
     if (point->entry->plugin != NULL)
         status = make_choices(made, point, point->entry->plugin->method, err);
+    if (status == FM_OK && made->choice_count > 0)
+        work_out_layout(made, point);
     if (settings_file(&made->settings) != NULL)
         remember_mesh(point->memo, settings_file(&made->settings));
     if (status == FM_OK)

@@ -12,6 +12,14 @@ typedef struct fm_mesh_memo {
     fm_error error; /* status FM_OK: the digest is known */
 } fm_mesh_memo;
 
+/* What one device is, asked when the first case wants it. */
+typedef struct fm_device_memo {
+    const fm_plan_request *request; /* with whom to ask */
+    bool was_asked;
+    fm_layout_device device;
+    fm_error error; /* status FM_OK: the device is known */
+} fm_device_memo;
+
 /* Where in the product a case stands. All borrowed. */
 typedef struct fm_plan_point {
     const fm_plugin_entry *entry;
@@ -19,8 +27,9 @@ typedef struct fm_plan_point {
     const fm_device_ops *ops; /* of the device */
     const fm_settings *base;  /* the scene's own */
     const fm_selection *selection;
-    const size_t *values; /* [sweep_count]: which value of each axis */
-    fm_mesh_memo *memo;   /* starts as {0} */
+    const size_t *values;        /* [sweep_count]: which value of each axis */
+    fm_mesh_memo *memo;          /* starts as {0} */
+    fm_device_memo *device_memo; /* of the device; NULL: nobody can be asked */
 } fm_plan_point;
 
 /* Makes the case, which the caller releases. FM_INVALID: the point's keys contradict each other;

@@ -17,6 +17,8 @@ static fm_status check_attachment(const fm_resource **image, const fm_checked_me
     if (status != FM_OK)
         return status;
     *image = &check->method->resources[index];
+    if (check_unconditional(check, name, field, err) != FM_OK)
+        return FM_INVALID;
     if ((*image)->kind != FM_RESOURCE_IMAGE)
         return fm_fail(err, FM_INVALID, "%s '%s': is a buffer, not an image", field, name);
     if (format_has_depth((*image)->format) != wants_depth)

@@ -17,11 +17,6 @@ static const later_field of_method[] = {
     LATER(fm_method_desc, needs_interlock),
 };
 
-static const later_field of_resource[] = {
-    LATER(fm_resource, when_option),
-    LATER(fm_resource, when_value),
-};
-
 static const later_field of_pass[] = {
     LATER(fm_pass, ordered_interlock),
     LATER(fm_pass, targets_after_lock),
@@ -52,11 +47,6 @@ static fm_status check_fields(const void *item, const later_field *fields, size_
 fm_status check_later_method(const fm_method_desc *method, fm_error *err)
 {
     return check_fields(method, of_method, COUNT(of_method), err);
-}
-
-fm_status check_later_resource(const fm_resource *resource, fm_error *err)
-{
-    return check_fields(resource, of_resource, COUNT(of_resource), err);
 }
 
 fm_status check_later_pass(const fm_pass *pass, fm_error *err)

@@ -9,7 +9,6 @@
 
 /* FM_INVALID with "FIELD: not yet" where any byte of such a field is set: zero is the default. */
 fm_status check_later_method(const fm_method_desc *method, fm_error *err);
-fm_status check_later_resource(const fm_resource *resource, fm_error *err);
 fm_status check_later_pass(const fm_pass *pass, fm_error *err);
 
 #endif

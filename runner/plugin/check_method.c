@@ -109,11 +109,13 @@ static fm_status check_body(const fm_checked_method *check, fm_error *err)
 
 static fm_status check_all(const fm_method_desc *method, fm_error *err)
 {
-    fm_checked_method check = { .method = method,
-                                .options = { .what = "option", .list = "options" },
-                                .resources = { .what = "resource", .list = "resources" },
-                                .totals = { .what = "total", .list = "totals" },
-                                .passes = { .what = "pass", .list = "passes" } };
+    fm_checked_method check = {
+        .method = method,
+        .options = { .what = "option", .list = "options" },
+        .resources = { .what = "resource", .list = "resources", .may_repeat = true },
+        .totals = { .what = "total", .list = "totals" },
+        .passes = { .what = "pass", .list = "passes" }
+    };
     if (method->abi != FM_ABI)
         return fm_fail(err, FM_INVALID,
                        "abi: the plugin has %" PRIu32 ", which is %s than this program's %u: %s",

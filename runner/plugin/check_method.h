@@ -13,6 +13,10 @@ typedef struct fm_checked_method {
 
 fm_status check_options(const fm_checked_method *check, fm_error *err);
 fm_status check_resources(const fm_checked_method *check, fm_error *err);
+/* Refused: another resource takes the place of `name`, under an option; what `field` names is
+ * always the same one. */
+fm_status check_unconditional(const fm_checked_method *check, const char *name, const char *field,
+                              fm_error *err);
 /* Traits that resources contradict. */
 fm_status check_multisampled(const fm_checked_method *check, fm_error *err);
 fm_status check_totals(const fm_checked_method *check, fm_error *err);

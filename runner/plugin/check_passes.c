@@ -113,16 +113,22 @@ static fm_status check_access(const fm_checked_method *check, const char *name, 
 }
 
 /* A clear fills any image; a shader stores into colour images of one sample only. */
+static bool shaders_store_into(const fm_resource *r)
+{
+    return r->kind == FM_RESOURCE_BUFFER || (!format_has_depth(r->format) && r->samples <= 1 &&
+                                             r->samples_per_k == 0 && r->samples_option == NULL);
+}
+
 static fm_status check_written(const fm_checked_method *check, const fm_pass *pass,
                                const char *name, fm_error *err)
 {
-    const fm_resource *r = find_resource(check, name);
-    if (r == NULL || r->kind != FM_RESOURCE_IMAGE || pass->kind == FM_PASS_CLEAR)
-        return FM_OK;
-    if (format_has_depth(r->format) || r->samples > 1 || r->samples_per_k > 0 ||
-        r->samples_option != NULL)
-        return fm_fail(err, FM_INVALID,
-                       "writes '%s': shaders store into colour images of one sample only", name);
+    for (size_t i = 0; i < check->resources.count; i++) { /* whichever of this name is there */
+        const fm_resource *r = &check->method->resources[i];
+        if (strcmp(r->name, name) == 0 && pass->kind != FM_PASS_CLEAR && !shaders_store_into(r))
+            return fm_fail(err, FM_INVALID,
+                           "writes '%s': shaders store into colour images of one sample only",
+                           name);
+    }
     return FM_OK;
 }
 
@@ -244,6 +250,8 @@ static fm_status check_counts(const fm_checked_method *check, const fm_pass *pas
     if (status != FM_OK)
         return status;
     const fm_resource *r = &check->method->resources[index];
+    if (check_unconditional(check, pass->indirect, "indirect", err) != FM_OK)
+        return FM_INVALID;
     if (r->kind != FM_RESOURCE_BUFFER || r->element != FM_ELEMENT_UINT)
         return fm_fail(err, FM_INVALID, "indirect '%s': needs a buffer of FM_ELEMENT_UINT",
                        pass->indirect);

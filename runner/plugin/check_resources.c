@@ -3,7 +3,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "check_later.h"
 #include "check_method.h"
 #include "model/descriptor.h"
 #include "model/formats.h"
@@ -185,6 +184,23 @@ static fm_status check_clear(const fm_resource *r, fm_error *err)
     return FM_OK;
 }
 
+/* Of an image: elements of each pixel, a layer each. */
+static fm_status check_texels(const fm_checked_method *check, const fm_resource *r, fm_error *err)
+{
+    const fm_extent *e = &r->extent;
+    const uint64_t others = e->constant | e->per_fragment | e->per_tile | e->per_triangle |
+                            e->per_total | e->per_option;
+    if (others != 0 || e->total != NULL)
+        return fm_fail(err, FM_INVALID,
+                       "extent: an image has the viewport's size: per_pixel, per_pixel_k, "
+                       "per_pixel_n and per_pixel_option are its layers, and nothing else is set");
+    if (!is_zero(e) && (r->layers > 0 || r->layers_per_k > 0))
+        return fm_fail(err, FM_INVALID, "extent: layers are set too");
+    if (check_extent_values(e, "extent", err) != FM_OK)
+        return FM_INVALID;
+    return check_extent_names(check, e, "extent", err);
+}
+
 static fm_status check_image(const fm_checked_method *check, const fm_resource *r, fm_error *err)
 {
     const fm_extent none = { 0 };
@@ -193,11 +209,10 @@ static fm_status check_image(const fm_checked_method *check, const fm_resource *
         return status;
     if (r->format == FM_FORMAT_NONE)
         return fm_fail(err, FM_INVALID, "format: missing");
-    if (memcmp(&r->extent, &none, sizeof none) != 0 || memcmp(&r->grown, &none, sizeof none) != 0 ||
-        r->sizing != FM_SIZE_FIXED || r->overflow != NULL || r->shares != NULL ||
-        r->element != FM_ELEMENT_UINT)
+    if (memcmp(&r->grown, &none, sizeof none) != 0 || r->sizing != FM_SIZE_FIXED ||
+        r->overflow != NULL || r->shares != NULL || r->element != FM_ELEMENT_UINT)
         return fm_fail(err, FM_INVALID,
-                       "an image has the viewport's size: no element, extent, sizing or overflow");
+                       "an image has the viewport's size: no element, sizing or overflow");
     if ((r->samples & (r->samples - 1)) != 0 || r->samples > MAX_IMAGE_SAMPLES)
         return fm_fail(err, FM_INVALID, "samples: %" PRIu32 ": a power of two, %d at most",
                        r->samples, MAX_IMAGE_SAMPLES);
@@ -209,7 +224,7 @@ static fm_status check_image(const fm_checked_method *check, const fm_resource *
     if (r->samples_option != NULL &&
         check_counting_option(check, r->samples_option, "samples_option", err) != FM_OK)
         return FM_INVALID;
-    return check_clear(r, err);
+    return check_texels(check, r, err) == FM_OK ? check_clear(r, err) : FM_INVALID;
 }
 
 static bool has_samples(const fm_resource *r)
@@ -226,6 +241,95 @@ fm_status check_multisampled(const fm_checked_method *check, fm_error *err)
         if (has_samples(&method->resources[i]))
             return FM_OK;
     return fm_fail(err, FM_INVALID, "traits: multisampled, but no image has samples");
+}
+
+/* What a stand-in and the resource that it replaces have to be. */
+static bool is_plain(const fm_resource *r)
+{
+    return r->sizing == FM_SIZE_FIXED && r->shares == NULL && !r->ping_pong;
+}
+
+static fm_status check_condition_names(const fm_checked_method *check, const fm_resource *r,
+                                       fm_error *err)
+{
+    size_t index;
+    if (r->when_option == NULL)
+        return fm_fail(err, FM_INVALID, "when_value '%s': needs when_option", r->when_value);
+    if (r->when_value == NULL)
+        return fm_fail(err, FM_INVALID, "when_option '%s': needs when_value", r->when_option);
+    const fm_status status =
+        check_known(&index, r->when_option, "when_option", &check->options, err);
+    if (status != FM_OK)
+        return status;
+    const fm_option *option = &check->method->options[index];
+    return option_has_value(option, r->when_value)
+               ? FM_OK
+               : fm_fail(err, FM_INVALID, "when_value '%s': option '%s' has no such value",
+                         r->when_value, r->when_option);
+}
+
+/* Against all others: the one that it replaces, and those that share memory with it. */
+static fm_status check_condition(const fm_checked_method *check, const fm_resource *r,
+                                 fm_error *err)
+{
+    const fm_resource *replaced = NULL;
+    if (r->when_option == NULL && r->when_value == NULL)
+        return FM_OK;
+    if (check_condition_names(check, r, err) != FM_OK)
+        return FM_INVALID;
+    for (size_t i = 0; i < check->resources.count; i++) {
+        const fm_resource *other = &check->method->resources[i];
+        if (strcmp(other->name, r->name) == 0 && other->when_option == NULL)
+            replaced = other;
+        if (other->shares != NULL && strcmp(other->shares, r->name) == 0)
+            return fm_fail(err, FM_INVALID, "when_option: '%s' shares its memory", other->name);
+    }
+    if (replaced == NULL)
+        return fm_fail(err, FM_INVALID,
+                       "when_option: no resource of this name without a condition, which it "
+                       "replaces");
+    if (!is_plain(r) || !is_plain(replaced))
+        return fm_fail(err, FM_INVALID,
+                       "when_option: it and what it replaces need a fixed size, memory of their "
+                       "own, and one copy");
+    return FM_OK;
+}
+
+/* Of one name there is one resource, or one for each of some values of an option. */
+static fm_status check_once(const fm_checked_method *check, size_t index, fm_error *err)
+{
+    const fm_resource *r = &check->method->resources[index];
+    for (size_t i = 0; i < index; i++) {
+        const fm_resource *other = &check->method->resources[i];
+        if (strcmp(r->name, other->name) != 0)
+            continue;
+        const bool is_stand_in = r->when_option != NULL && r->when_value != NULL;
+        const bool is_another = other->when_option != NULL && other->when_value != NULL;
+        if (!is_stand_in && !is_another)
+            return fm_fail(err, FM_INVALID, "resources[%zu]: '%s' is there twice", index, r->name);
+        if (!is_stand_in || !is_another)
+            continue;
+        if (strcmp(r->when_option, other->when_option) != 0)
+            return fm_fail(err, FM_INVALID, "resource '%s': when_option '%s': another one has '%s'",
+                           r->name, r->when_option, other->when_option);
+        if (strcmp(r->when_value, other->when_value) == 0)
+            return fm_fail(err, FM_INVALID, "resource '%s': when_value '%s' is there twice",
+                           r->name, r->when_value);
+    }
+    return FM_OK;
+}
+
+fm_status check_unconditional(const fm_checked_method *check, const char *name, const char *field,
+                              fm_error *err)
+{
+    for (size_t i = 0; i < check->resources.count; i++) {
+        const fm_resource *r = &check->method->resources[i];
+        if (r->when_option != NULL && strcmp(r->name, name) == 0)
+            return fm_fail(err, FM_INVALID,
+                           "%s '%s': with another value of '%s' it is another resource", field,
+                           name, r->when_option);
+    }
+    return FM_OK;
 }
 
 static fm_status check_resource_name(const fm_checked_method *check, const char *name,
@@ -256,16 +360,17 @@ static fm_status check_resource(const fm_checked_method *check, const fm_resourc
     if (status == FM_OK)
         status = check_factors(used, sizeof used / sizeof used[0], "used", err);
     if (status == FM_OK)
-        status = check_later_resource(r, err);
-    if (status != FM_OK)
-        return status;
-    return r->kind == FM_RESOURCE_BUFFER ? check_buffer(check, r, err) : check_image(check, r, err);
+        status = r->kind == FM_RESOURCE_BUFFER ? check_buffer(check, r, err)
+                                               : check_image(check, r, err);
+    return status == FM_OK ? check_condition(check, r, err) : status;
 }
 
 fm_status check_resources(const fm_checked_method *check, fm_error *err)
 {
     for (size_t i = 0; i < check->resources.count; i++) {
         const fm_resource *r = &check->method->resources[i];
+        if (check_once(check, i, err) != FM_OK)
+            return FM_INVALID;
         if (check_resource(check, r, err) != FM_OK)
             return fm_error_prefix(err, "resource '%s'", r->name);
     }

@@ -13,6 +13,8 @@ static fm_status check_source(const fm_checked_method *check, const fm_total *to
     if (status != FM_OK)
         return status;
     const fm_resource *r = &check->method->resources[index];
+    if (check_unconditional(check, r->name, "resource", err) != FM_OK)
+        return FM_INVALID;
     if (r->kind != FM_RESOURCE_BUFFER || r->element != FM_ELEMENT_UINT)
         return fm_fail(err, FM_INVALID, "resource '%s': needs a buffer of FM_ELEMENT_UINT",
                        total->resource);

@@ -75,8 +75,8 @@ static const char *name_at(const char *const *first, size_t stride_bytes, size_t
     return *(const char *const *)((const char *)first + i * stride_bytes);
 }
 
-fm_status check_list(size_t *count, const char *const *first, size_t stride_bytes, size_t room,
-                     const char *list, fm_error *err)
+static fm_status check_length(size_t *count, const char *const *first, size_t stride_bytes,
+                              size_t room, const char *list, fm_error *err)
 {
     size_t length = 0;
     while (length < room && name_at(first, stride_bytes, length) != NULL)
@@ -85,22 +85,31 @@ fm_status check_list(size_t *count, const char *const *first, size_t stride_byte
         if (name_at(first, stride_bytes, i) != NULL)
             return fm_fail(err, FM_INVALID, "%s[%zu]: '%s' stands behind an entry without a name",
                            list, i, name_at(first, stride_bytes, i));
-    for (size_t i = 0; i < length; i++) {
-        const char *name = name_at(first, stride_bytes, i);
-        if (*name == '\0')
+    for (size_t i = 0; i < length; i++)
+        if (*name_at(first, stride_bytes, i) == '\0')
             return fm_fail(err, FM_INVALID, "%s[%zu]: empty name", list, i);
-        for (size_t j = 0; j < i; j++)
-            if (strcmp(name, name_at(first, stride_bytes, j)) == 0)
-                return fm_fail(err, FM_INVALID, "%s[%zu]: '%s' is there twice", list, i, name);
-    }
     *count = length;
     return FM_OK;
+}
+
+fm_status check_list(size_t *count, const char *const *first, size_t stride_bytes, size_t room,
+                     const char *list, fm_error *err)
+{
+    const fm_status status = check_length(count, first, stride_bytes, room, list, err);
+    for (size_t i = 0; status == FM_OK && i < *count; i++)
+        for (size_t j = 0; j < i; j++)
+            if (strcmp(name_at(first, stride_bytes, i), name_at(first, stride_bytes, j)) == 0)
+                return fm_fail(err, FM_INVALID, "%s[%zu]: '%s' is there twice", list, i,
+                               name_at(first, stride_bytes, i));
+    return status;
 }
 
 fm_status check_names(fm_known_names *names, const char *const *first, size_t stride_bytes,
                       size_t room, fm_error *err)
 {
-    const fm_status status = check_list(&names->count, first, stride_bytes, room, names->list, err);
+    const fm_status status =
+        names->may_repeat ? check_length(&names->count, first, stride_bytes, room, names->list, err)
+                          : check_list(&names->count, first, stride_bytes, room, names->list, err);
     for (size_t i = 0; status == FM_OK && i < names->count; i++)
         names->items[i] = name_at(first, stride_bytes, i);
     return status;

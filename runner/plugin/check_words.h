@@ -14,6 +14,7 @@
  * strings are the plugin's. */
 typedef struct fm_known_names {
     const char *what, *list; /* one of them and all of them in messages: "pass", "passes" */
+    bool may_repeat;         /* one name may stand twice: whoever knows why checks that */
     size_t count;
     const char *items[FM_MAX_RESOURCES]; /* resources are the longest list */
 } fm_known_names;

@@ -72,6 +72,16 @@ static void test_pass(fm_pass *pass, const fm_method_desc *method, const fm_sett
     pass->state.early_tests = true;
 }
 
+/* An image that stands in for a buffer; NULL: there is none. */
+static const fm_resource *stand_in_image(const fm_method_desc *method)
+{
+    for (size_t i = 0; i < resource_count(method); i++)
+        if (method->resources[i].kind == FM_RESOURCE_IMAGE &&
+            method->resources[i].when_option != NULL)
+            return &method->resources[i];
+    return NULL;
+}
+
 /* Of the passes as they will be. The descriptor has room. */
 static fm_status check_depth(const fm_method_desc *method, const fm_settings *settings,
                              fm_error *err)
@@ -106,6 +116,12 @@ fm_status culling_check(const fm_method_desc *method, const fm_settings *setting
                          "cull_words = %u: %u buckets are fewer than k = %u; nothing can be culled",
                          settings->cull_words, settings->cull_words * BUCKETS_PER_WORD,
                          settings->k);
+    if (settings->cull_memory == FM_CULL_MEMORY_SHARED && stand_in_image(method) != NULL)
+        return fm_refuse(err, FM_REASON_SETTING,
+                         "cull_memory = shared: with %s = %s '%s' is an image, whose memory a "
+                         "buffer cannot share",
+                         stand_in_image(method)->when_option, stand_in_image(method)->when_value,
+                         stand_in_image(method)->name);
     if (words > UINT32_MAX)
         return fm_refuse(err, FM_REASON_SUITE_LIMIT, "cull_words = %u: the map is over 2^32 words",
                          settings->cull_words);
@@ -213,12 +229,14 @@ static void add_passes(fm_method_desc *culled, const fm_method_desc *method,
 fm_status culling_apply(fm_method_desc *culled, const fm_method_desc *method,
                         const fm_culling_desc *desc, fm_error *err)
 {
-    *culled = *method;
-    const fm_status status = culling_check(method, desc->settings, desc->feed, err);
+    fm_method_desc chosen;
+    method_choose(&chosen, method, desc->choices, desc->choice_count);
+    *culled = chosen;
+    const fm_status status = culling_check(&chosen, desc->settings, desc->feed, err);
     if (status != FM_OK || desc->settings->culling == FM_CULLING_NONE)
         return status;
-    add_resources(culled, method, desc);
-    add_passes(culled, method, desc->settings);
+    add_resources(culled, &chosen, desc);
+    add_passes(culled, &chosen, desc->settings);
     return FM_OK;
 }
 

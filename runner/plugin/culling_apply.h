@@ -21,10 +21,11 @@
 #include "model/descriptor.h"
 #include "model/settings.h"
 
-/* FM_UNSUPPORTED, with the reason: a pass, as culling makes it, cannot be on a reversed projection
- * (depth_check.h); with culling also: the method keeps other fragments than the k nearest or
- * chooses k itself, the feed is not raster, there are fewer buckets than k, or the descriptor has
- * no room. */
+/* Of a method whose resources are chosen (method_choose). FM_UNSUPPORTED, with the reason: a pass,
+ * as culling makes it, cannot be on a reversed projection (depth_check.h); with culling also: the
+ * method keeps other fragments than the k nearest or chooses k itself, the feed is not raster,
+ * there are fewer buckets than k, the map is to lie where a layout has an image, or the descriptor
+ * has no room. */
 fm_status culling_check(const fm_method_desc *method, const fm_settings *settings, uint32_t feed,
                         fm_error *err);
 
@@ -37,8 +38,8 @@ typedef struct fm_culling_desc {
     uint32_t feed; /* one FM_FEED_* */
 } fm_culling_desc;
 
-/* The method as settings want it: its copy, or transformed. Borrows from the method. Fails as
- * culling_check. */
+/* The method as settings and choices want it: its copy, or transformed. Borrows from the method.
+ * Fails as culling_check. */
 fm_status culling_apply(fm_method_desc *culled, const fm_method_desc *method,
                         const fm_culling_desc *desc, fm_error *err);
 

@@ -35,6 +35,8 @@ static const field_rule answer_fields[] = {
     { "device_api", JSON_STRING, DEVICE_BYTES },
     { "has_gpu_clock", JSON_TRUE, 0 },
     { "is_software", JSON_TRUE, 0 },
+    { "image_layers", JSON_INTEGER, 0 },
+    { "image_max_bytes", JSON_INTEGER, 0 },
     { "modelled", JSON_OBJECT, 0 },
     { "image_hashes", JSON_ARRAY, 0 },
     { "mesh", JSON_OBJECT, 0 },
@@ -59,10 +61,11 @@ static const field_rule mesh_fields[] = {
 
 static const char *type_words(json_type type)
 {
-    return type == JSON_STRING   ? "a text"
-           : type == JSON_OBJECT ? "an object"
-           : type == JSON_ARRAY  ? "a list"
-                                 : "true or false";
+    return type == JSON_STRING    ? "a text"
+           : type == JSON_OBJECT  ? "an object"
+           : type == JSON_ARRAY   ? "a list"
+           : type == JSON_INTEGER ? "a whole number"
+                                  : "true or false";
 }
 
 /* Fields that are missing are none that are wrong. */

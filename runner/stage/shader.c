@@ -128,7 +128,7 @@ static void declare_sampled(fm_text *text, const fm_use *use)
 {
     const fm_slot *slot = use->slot;
     const struct format_words *words = &format_words[slot->format];
-    const bool is_array = slot->layers > 1, is_multisampled = slot->samples > 1;
+    const bool is_array = slot->is_array, is_multisampled = slot->samples > 1;
     text_add(text, "layout(binding = %u) uniform %ssampler2D%s%s fm_image_%s;\n", use->binding,
              words->prefix, is_multisampled ? "MS" : "", is_array ? "Array" : "", slot->name);
     text_add(text, "%s fm_load_%s(uvec2 pixel%s%s) { return texelFetch(fm_image_%s, %s, %s); }\n",
@@ -141,7 +141,7 @@ static void declare_storage_image(fm_text *text, const fm_use *use)
 {
     const fm_slot *slot = use->slot;
     const struct format_words *words = &format_words[slot->format];
-    const bool is_array = slot->layers > 1;
+    const bool is_array = slot->is_array;
     const char *at = is_array ? "ivec3(pixel, layer)" : "ivec2(pixel)";
     const char *extra = is_array ? ", uint layer" : "";
     text_add(text, "layout(binding = %u, %s) uniform %s%simage2D%s fm_image_%s;\n", use->binding,
@@ -176,6 +176,15 @@ static void declare_table(fm_text *text, const fm_use *uses, size_t count, const
     text_free(&lines);
 }
 
+/* FM_WRITES_NAME: shaders may store into it. */
+static void define_written(fm_text *text, const fm_slot *slot)
+{
+    text_add(text, "#define FM_WRITES_");
+    for (const char *at = slot->name; *at != '\0'; at++)
+        text_add(text, "%c", toupper((unsigned char)*at));
+    text_add(text, " 1\n");
+}
+
 void shader_declare(fm_text *text, const fm_use *uses, size_t count, const char *part)
 {
     text_add(
@@ -191,6 +200,8 @@ void shader_declare(fm_text *text, const fm_use *uses, size_t count, const char 
                      qualifier(&uses[i]), uses[i].slot->name, uses[i].slot->type);
     declare_table(text, uses, count, part);
     for (size_t i = 0; i < count; i++) {
+        if ((uses[i].access & FM_ACCESS_WRITE) != 0)
+            define_written(text, uses[i].slot);
         if (uses[i].slot->format == FM_FORMAT_NONE)
             declare_buffer(text, &uses[i]);
         else if ((uses[i].access & FM_ACCESS_WRITE) != 0)

@@ -20,6 +20,7 @@ typedef struct fm_slot {
     fm_image_resource *image;
     fm_format format;
     uint32_t samples, layers;
+    bool is_array; /* shaders name a layer */
 } fm_slot;
 
 /* A slot in a pass. */

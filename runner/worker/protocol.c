@@ -50,6 +50,11 @@ void answer_set_device(json_t *answer, const fm_device_caps *caps)
     json_object_set_new(answer, "device_api", any_text(caps->api));
     json_object_set_new(answer, "has_gpu_clock", json_boolean(caps->has_gpu_clock));
     json_object_set_new(answer, "is_software", json_boolean(caps->is_software));
+    json_object_set_new(answer, "image_layers", json_integer(caps->image_layers));
+    json_object_set_new(answer, "image_max_bytes",
+                        json_integer(caps->image_max_bytes < INT64_MAX
+                                         ? (json_int_t)caps->image_max_bytes
+                                         : INT64_MAX));
 }
 
 void answer_set_code(json_t *answer, const fm_code *code)
@@ -280,13 +285,22 @@ fm_answer_sample answer_sample(const json_t *sample)
     };
 }
 
+/* 0: there is none, or nonsense. */
+static uint64_t count_in(const json_t *answer, const char *name)
+{
+    const json_int_t count = json_integer_value(json_object_get(answer, name));
+    return count > 0 ? (uint64_t)count : 0;
+}
+
 bool answer_device(fm_answer_device *device, const json_t *answer)
 {
     const json_t *software = json_object_get(answer, "is_software");
     *device = (fm_answer_device){ .name = json_text_in(answer, "device_name"),
                                   .driver = json_text_in(answer, "device_driver"),
                                   .api = json_text_in(answer, "device_api"),
-                                  .has_gpu_clock = json_is_set(answer, "has_gpu_clock") };
+                                  .has_gpu_clock = json_is_set(answer, "has_gpu_clock"),
+                                  .image_layers = (uint32_t)count_in(answer, "image_layers"),
+                                  .image_max_bytes = count_in(answer, "image_max_bytes") };
     /* Journals of older runs do not say it. */
     device->is_software = software != NULL ? json_is_true(software) : !device->has_gpu_clock;
     return device->name[0] != '\0';

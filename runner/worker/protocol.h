@@ -32,7 +32,7 @@
  *                                           the machine is busy
  *     "code": { "program": "16 hex digits", ... },   what was loaded and read: code/code_json.h
  *     "device_name": "...", "device_driver": "...", "device_api": "...", "has_gpu_clock": false,
- *     "is_software": true,
+ *     "is_software": true, "image_layers": 2048, "image_max_bytes": 1073741824,   its largest image
  *     "modelled": { "scene": [...], "passes": [...], "buffers": [...] },    names
  *     "image_hashes": ["16 hex digits"],    of all timed frames, each once; a sequence has one
  *     "mesh": { "file": "...", "told": "a sentence", "triangles": 12, ... },   what a scene's file
@@ -189,6 +189,8 @@ fm_answer_sample answer_sample(const json_t *sample);
 typedef struct fm_answer_device {
     const char *name, *driver, *api; /* borrowed from the answer */
     bool has_gpu_clock, is_software;
+    uint32_t image_layers;    /* most layers of an image; 0 in answers of older programs */
+    uint64_t image_max_bytes; /* the same */
 } fm_answer_device;
 /* false: it says nothing, because the worker did not come so far. */
 bool answer_device(fm_answer_device *device, const json_t *answer);

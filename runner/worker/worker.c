@@ -30,7 +30,9 @@ typedef struct launch_job {
     fm_device *device;
     fm_plugin *method, *floor;
     const char *mark_path;
-    fm_hook_mark *mark;   /* what of the plugin is running; NULL: it cannot be told */
+    fm_hook_mark *mark;                /* what of the plugin is running; NULL: it cannot be told */
+    fm_choice choices[FM_MAX_OPTIONS]; /* all of the method's options, nothing left open */
+    size_t choice_count;
     fm_method_desc desc;  /* the method, with culling if that is asked for */
     fm_settings settings; /* finished */
     uint32_t feed;
@@ -276,8 +278,8 @@ static fm_status measure(launch_job *job)
         .method = &job->desc,
         .folders = { .method = job->method->folder, .common = common, .code = &job->code },
         .settings = &job->settings,
-        .choices = job->request->choices,
-        .choice_count = job->request->choice_count,
+        .choices = job->choices,
+        .choice_count = job->choice_count,
         .fragments = job->truth->fragment_count,
         .fragments_kept = truth_kept(job->truth, places),
         .mark = job->mark,
@@ -303,9 +305,15 @@ static fm_status measure(launch_job *job)
 
 static fm_status cull(launch_job *job)
 {
+    const fm_instance_desc asked = { .stage = job->stage,
+                                     .method = job->method->method,
+                                     .settings = &job->settings,
+                                     .choices = job->request->choices,
+                                     .choice_count = job->request->choice_count };
+    job->choice_count = instance_choices(job->choices, &asked);
     const fm_culling_desc desc = { .settings = &job->settings,
-                                   .choices = job->request->choices,
-                                   .choice_count = job->request->choice_count,
+                                   .choices = job->choices,
+                                   .choice_count = job->choice_count,
                                    .n = job->stage->n,
                                    .feed = job->feed };
     return culling_apply(&job->desc, job->method->method, &desc, &job->error);

@@ -182,6 +182,88 @@ static void an_image_has_layers_for_each_k(void **state)
     assert_int_equal(frames_run(device_of(state), &frames), 10 * (1 + 2 + 3 + 4) + 5);
 }
 
+/* A buffer or an image by the option's value; shaders learn which from its macro. */
+static fm_method_desc with_stand_in(const char *first, const char *second)
+{
+    fm_method_desc method = written_image(FM_FORMAT_RG32UI);
+    method.options[0] = (fm_option){ .name = "layout", .values = { first, second } };
+    method.resources[2] = method.resources[1];
+    method.resources[1] = (fm_resource){ .name = "surface",
+                                         .kind = FM_RESOURCE_IMAGE,
+                                         .format = FM_FORMAT_RG32UI,
+                                         .extent = { .per_pixel_k = 1 },
+                                         .when_option = "layout",
+                                         .when_value = "image" };
+    method.resources[0] = (fm_resource){ .name = "surface",
+                                         .element = FM_ELEMENT_UVEC2,
+                                         .extent = { .per_pixel_k = 1 } };
+    return method;
+}
+
+/* With k = 1, too, the image has layers. */
+static void an_image_stands_in_for_a_buffer_by_an_option(void **state)
+{
+    static const kit_file files[] = {
+        { "write.glsl", "void write(uvec2 pixel)\n{\n"
+                        "    for (uint i = 0u; i < uint(K); ++i)\n"
+                        "#if LAYOUT == LAYOUT_IMAGE\n"
+                        "        fm_store_surface(pixel, i, uvec4(10u + i, 0u, 0u, 0u));\n"
+                        "#else\n"
+                        "        surface[fm_pixel_index(pixel) * uint(K) + i].x = 20u + i;\n"
+                        "#endif\n}\n" },
+        { "look.glsl", "void look(uvec2 pixel)\n{\n"
+                       "    uint i = uint(K) - 1u;\n"
+                       "    if (pixel != uvec2(2u, 1u))\n        return;\n"
+                       "#if LAYOUT == LAYOUT_IMAGE\n"
+                       "    result[0] = fm_load_surface(pixel, i).x;\n"
+                       "#else\n"
+                       "    result[0] = surface[fm_pixel_index(pixel) * uint(K) + i].x;\n"
+                       "#endif\n}\n" },
+    };
+    for (uint32_t k = 1; k <= 4; k += 3) {
+        char scene[64];
+        snprintf(scene, sizeof scene, "width_px=3 height_px=2 n=0 k=%u", k);
+        const fm_method_desc image = with_stand_in("image", "pixel");
+        const fm_method_desc buffer = with_stand_in("pixel", "image");
+        kit_frames frames = { .method = &image, .files = files, .file_count = 2, .scene = scene };
+        assert_int_equal(frames_run(device_of(state), &frames), 10 + k - 1);
+        frames.method = &buffer;
+        assert_int_equal(frames_run(device_of(state), &frames), 20 + k - 1);
+    }
+}
+
+/* Not a failure, and not the driver's word for no memory. */
+static void an_image_that_a_device_lacks_is_refused(void **state)
+{
+    static const kit_file files[] = {
+        { "write.glsl", "void write(uvec2 pixel) { fm_store_surface(pixel, 0u, uvec4(1u)); }\n" },
+        { "look.glsl", "void look(uvec2 pixel) { result[0] = fm_load_surface(pixel, 0u).x; }\n" },
+    };
+    enum { BROAD_PX = 512 };
+    const fm_device_caps *caps = &device_of(state)->caps;
+    const uint64_t largest_k = caps->image_max_bytes / ((uint64_t)BROAD_PX * BROAD_PX * 8) + 1;
+    const struct {
+        uint32_t side_px;
+        uint64_t k;
+        const char *message;
+    } cases[] = { { 2, caps->image_layers + 1, "layers" }, { BROAD_PX, largest_k, "bytes" } };
+    const fm_method_desc method = with_stand_in("image", "pixel");
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        frames_seen seen;
+        fm_error err = { .message = "" };
+        char scene[96];
+        snprintf(scene, sizeof scene, "width_px=%u height_px=%u n=0 k=%llu", cases[i].side_px,
+                 cases[i].side_px, (unsigned long long)cases[i].k);
+        const kit_frames frames = {
+            .method = &method, .files = files, .file_count = 2, .scene = scene
+        };
+        assert_int_equal(frames_try(&seen, device_of(state), &frames, &err), FM_UNSUPPORTED);
+        assert_int_equal(err.reason, FM_REASON_DEVICE_LIMIT);
+        if (strstr(err.message, cases[i].message) == NULL)
+            fail_msg("'%s' is not in: %s", cases[i].message, err.message);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -190,6 +272,8 @@ int main(void)
         ON_VULKAN_AND_OSMESA(an_integer_image_is_cleared_to_any_words),
         ON_VULKAN_AND_OSMESA(an_image_takes_atomics),
         ON_VULKAN_AND_OSMESA(an_image_has_layers_for_each_k),
+        ON_VULKAN_AND_OSMESA(an_image_stands_in_for_a_buffer_by_an_option),
+        ON_VULKAN_AND_OSMESA(an_image_that_a_device_lacks_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

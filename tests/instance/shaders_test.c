@@ -77,8 +77,65 @@ static void every_shader_compiles(void **state)
     assert_true(seen.built > 0); /* else nothing was shown */
 }
 
+static bool takes_locks(const fm_method_desc *method)
+{
+    for (size_t i = 0; i < FM_MAX_PASSES && method->passes[i].name != NULL; i++)
+        if (method->passes[i].exclusive)
+            return true;
+    return false;
+}
+
+static void build_locks(outcomes *seen, scene_kit *kit, kit_scene *scene)
+{
+    static const char *const texts[] = {
+        "k=8 release=auto",
+        "k=8 release=exchange buffers=bound",
+        "k=8 release=store buffers=address",
+    };
+    for (size_t i = 0; i < kit->plugins.count; i++) {
+        const fm_method_desc *method = kit_method(kit, i);
+        const fm_option *layout = option_find(method, "layout");
+        if (!takes_locks(method))
+            continue;
+        for (size_t j = 0; j < sizeof texts / sizeof texts[0]; j++) {
+            char with_image[96];
+            snprintf(with_image, sizeof with_image, "%s layout=image", texts[j]);
+            build(seen, scene, &(kit_way){ method->id, FM_FEED_RASTER, texts[j] }, false);
+            build(seen, scene, &(kit_way){ method->id, FM_FEED_COMPUTE_ADJACENT, texts[j] }, true);
+            if (layout != NULL && option_has_value(layout, "image"))
+                build(seen, scene, &(kit_way){ method->id, FM_FEED_RASTER, with_image }, false);
+        }
+    }
+}
+
+/* As on devices that need them, which this one may not be. */
+static void every_lock_compiles_with_barriers_and_with_the_memory_model(void **state)
+{
+    fm_device *device = device_of(state);
+    const fm_device_caps own = device->caps;
+    scene_kit kit;
+    kit_scene scene;
+    outcomes seen = { 0 };
+    kit_open(&kit, device);
+    kit_scene_open(&scene, &kit, SCENE);
+    device->caps.needs_lock_barriers = true;
+    build_locks(&seen, &kit, &scene);
+    device->caps.has_memory_model = false;
+    build_locks(&seen, &kit, &scene);
+    device->caps = own;
+    kit_scene_close(&scene);
+    kit_close(&kit);
+    print_message("%u built, %u not supported, %u failed\n", seen.built, seen.not_supported,
+                  seen.failed);
+    assert_int_equal(seen.failed, 0);
+    assert_true(seen.built > 0);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = { ON_VULKAN_AND_OSMESA(every_shader_compiles) };
+    const struct CMUnitTest tests[] = {
+        ON_VULKAN_AND_OSMESA(every_shader_compiles),
+        ON_VULKAN_AND_OSMESA(every_lock_compiles_with_barriers_and_with_the_memory_model),
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

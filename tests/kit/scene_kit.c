@@ -200,6 +200,19 @@ bool kit_has_ties(const fm_truth *truth)
     return false;
 }
 
+void kit_layout_in_turn(char texts[96], const char *given, const fm_method_desc *method,
+                        size_t number)
+{
+    const fm_option *layout = option_find(method, LAYOUT_OPTION);
+    size_t count = 0;
+    while (layout != NULL && count < FM_MAX_OPTION_VALUES && layout->values[count] != NULL)
+        count++;
+    if (count == 0)
+        snprintf(texts, 96, "%s", given);
+    else
+        snprintf(texts, 96, "%s " LAYOUT_OPTION "=%s", given, layout->values[number % count]);
+}
+
 void kit_tell(char text[256], const kit_way *way)
 {
     snprintf(text, 256, "%s, %s, %s", way->method, feed_name(way->feed), way->texts);
@@ -221,8 +234,8 @@ static void fill_desc(fm_instance_desc *desc, const kit_scene *scene, const fm_t
 /* The texts of a way, as a method takes them. */
 typedef struct asked_case {
     fm_settings settings;
-    fm_choice choices[FM_MAX_OPTIONS];
-    fm_method_desc method; /* with culling, if asked for */
+    fm_choice choices[FM_MAX_OPTIONS]; /* all of the method's options */
+    fm_method_desc method;             /* with culling, if asked for */
     fm_instance_desc desc;
     fm_stage *stage;
 } asked_case;
@@ -231,22 +244,22 @@ static fm_status ask(asked_case *asked, kit_scene *scene, const kit_way *way, fm
 {
     const fm_plugin_entry *entry = plugin_list_find(&scene->kit->plugins, way->method);
     const fm_truth *truth = kit_truth(scene, way->feed);
+    fm_choice given[FM_MAX_OPTIONS];
     size_t choice_count = 0;
     if (entry == NULL || entry->plugin == NULL)
         fail_msg("%s: %s", way->method, entry == NULL ? "plugin not found" : entry->error.message);
     asked->settings = scene->scene->settings;
     asked->settings.buffers = FM_BUFFERS_AUTO;
-    apply(&asked->settings, asked->choices, &choice_count, way->texts);
+    apply(&asked->settings, given, &choice_count, way->texts);
     for (size_t i = 0; i < choice_count; i++)
-        if (option_find(entry->plugin->method, asked->choices[i].name) == NULL)
-            fail_msg("%s has no option '%s'", way->method, asked->choices[i].name);
+        if (option_find(entry->plugin->method, given[i].name) == NULL)
+            fail_msg("%s has no option '%s'", way->method, given[i].name);
     if (!plugin_has_k(entry->plugin->method))
         asked->settings.k = 0;
     scene->scene->settings.buffers = asked->settings.buffers;
     fill_desc(&asked->desc, scene, truth, entry->plugin, &asked->settings);
-    asked->desc.choices = asked->choices;
+    asked->desc.choices = given;
     asked->desc.choice_count = choice_count;
-    asked->desc.method = &asked->method;
     fm_status status =
         stage_create(&asked->stage, scene->kit->device, scene->scene, truth, way->feed, err);
     if (status != FM_OK)
@@ -254,9 +267,12 @@ static fm_status ask(asked_case *asked, kit_scene *scene, const kit_way *way, fm
     if (scene->told_n != 0)
         asked->stage->n = scene->told_n;
     asked->desc.stage = asked->stage;
+    asked->desc.choice_count = instance_choices(asked->choices, &asked->desc);
+    asked->desc.choices = asked->choices;
+    asked->desc.method = &asked->method;
     const fm_culling_desc culling = { .settings = &asked->settings,
                                       .choices = asked->choices,
-                                      .choice_count = choice_count,
+                                      .choice_count = asked->desc.choice_count,
                                       .n = asked->stage->n,
                                       .feed = way->feed };
     status = culling_apply(&asked->method, entry->plugin->method, &culling, err);

@@ -60,11 +60,14 @@ static bool is_judged(const fm_method_desc *method)
            (method->traits & free) == 0;
 }
 
+/* The number says which layout. */
 static void check_method(kit_scene *scene, const fm_method_desc *method, uint32_t feeds,
-                         const char *name)
+                         size_t number, const char *name)
 {
-    for (uint32_t feed = FM_FEED_RASTER; feed <= FM_FEED_TRIANGLES; feed <<= 1) {
-        const kit_way way = { method->id, feed, "k=8" };
+    for (uint32_t feed = FM_FEED_RASTER; feed <= FM_FEED_TRIANGLES; feed <<= 1, number++) {
+        char texts[96];
+        kit_layout_in_turn(texts, "k=8", method, number);
+        const kit_way way = { method->id, feed, texts };
         fm_measurement m;
         char where[256], at[320];
         if ((feeds & feed) == 0 || !is_judged(method))
@@ -102,7 +105,8 @@ static void check_scene(scene_kit *kit, size_t number, const char *name, const c
             (method->family == FM_FAMILY_PEELING && settings.n > PEELED_MAX))
             continue;
         check_method(&scene, method,
-                     kit_wants_all() ? kit_feeds(method) : feed_in_turn(method, number + i), name);
+                     kit_wants_all() ? kit_feeds(method) : feed_in_turn(method, number + i),
+                     number + i / METHODS_APART, name);
     }
     kit_scene_close(&scene);
 }

@@ -53,12 +53,14 @@ static void make_random(random_scene *made, uint32_t number)
 /* `fragmark run ...` of one case. */
 static void print_command(const random_scene *scene, const kit_way *way, const char *device)
 {
-    char copy[320];
+    char copy[420];
     char *rest = NULL;
     const bool is_layers = strncmp(scene->texts, "n=", 2) == 0;
-    print_error("  fragmark run --scene %s --method %s --device %s --feed %s -a %s",
-                is_layers ? "layers" : "bunny", way->method, device, feed_name(way->feed),
-                scene->k);
+    print_error("  fragmark run --scene %s --method %s --device %s --feed %s",
+                is_layers ? "layers" : "bunny", way->method, device, feed_name(way->feed));
+    snprintf(copy, sizeof copy, "%s", way->texts);
+    for (char *word = strtok_r(copy, " ", &rest); word != NULL; word = strtok_r(NULL, " ", &rest))
+        print_error(" -a %s", word);
     snprintf(copy, sizeof copy, "%s", scene->texts);
     for (char *word = strtok_r(copy, " ", &rest); word != NULL; word = strtok_r(NULL, " ", &rest))
         if (is_layers || strstr(word, "_px") != NULL)
@@ -117,7 +119,9 @@ static void measure_all(outcomes *seen, kit_scene *scene, const random_scene *fr
     for (size_t i = 0; i < scene->kit->plugins.count; i++) {
         const fm_method_desc *method = kit_method(scene->kit, i);
         for (uint32_t feed = FM_FEED_RASTER; feed <= FM_FEED_TRIANGLES; feed <<= 1) {
-            const kit_way way = { .method = method->id, .feed = feed, .texts = from->k };
+            char texts[96];
+            kit_layout_in_turn(texts, from->k, method, seen->measured);
+            const kit_way way = { .method = method->id, .feed = feed, .texts = texts };
             if ((kit_feeds(method) & feed) == 0 || !kit_is_right(method, any_ties))
                 continue;
             measure_one(wrong, scene, &way);

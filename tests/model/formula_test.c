@@ -112,6 +112,54 @@ static void images_have_layers_and_samples_for_each_k(void **state)
     assert_int_equal(formula_image_bytes(&image, &workload), 8 * 6 * (1 + 2 * 4) * 4);
 }
 
+/* k = 4 and n = 5: as a buffer of that extent has elements of a pixel. */
+static void an_extent_of_an_image_is_its_layers(void **state)
+{
+    (void)state;
+    fm_resource image = { .kind = FM_RESOURCE_IMAGE,
+                          .format = FM_FORMAT_RG32UI,
+                          .extent = { .per_pixel = 1, .per_pixel_k = 2, .per_pixel_n = 3 } };
+    const uint64_t totals[FM_MAX_TOTALS] = { 0 };
+    const fm_workload workload = workload_of(10, totals);
+    assert_int_equal(formula_layers(&image, &workload), 1 + 2 * 4 + 3 * 5);
+    assert_int_equal(formula_image_bytes(&image, &workload), 8 * 6 * (1 + 2 * 4 + 3 * 5));
+    image.extent = (fm_extent){ .per_pixel_k = 1, .k_step = 3 };
+    assert_int_equal(formula_layers(&image, &workload), 2);
+    image.extent = (fm_extent){ .per_pixel_n = 4096 };
+    fm_workload endless = workload;
+    endless.n = UINT32_MAX;
+    assert_int_equal(formula_layers(&image, &endless), UINT32_MAX);
+}
+
+/* Whatever k is, shaders call it alike. */
+static void an_image_of_layers_is_an_array_where_it_has_one(void **state)
+{
+    (void)state;
+    const fm_resource single = { .kind = FM_RESOURCE_IMAGE, .layers = 1 };
+    const fm_resource two = { .kind = FM_RESOURCE_IMAGE, .layers = 2 };
+    const fm_resource by_k = { .kind = FM_RESOURCE_IMAGE, .layers_per_k = 1 };
+    const fm_resource by_extent = { .kind = FM_RESOURCE_IMAGE, .extent = { .per_pixel_n = 1 } };
+    assert_false(image_is_array(&single));
+    assert_true(image_is_array(&two) && image_is_array(&by_k) && image_is_array(&by_extent));
+}
+
+/* 10 fragments, of which 7 are kept, in 4 layers of 6 texels. */
+static void an_image_may_say_what_of_it_is_used(void **state)
+{
+    (void)state;
+    fm_resource image = { .kind = FM_RESOURCE_IMAGE,
+                          .format = FM_FORMAT_RG32UI,
+                          .extent = { .per_pixel_k = 1 } };
+    const uint64_t totals[FM_MAX_TOTALS] = { 0 };
+    fm_workload workload = workload_of(10, totals);
+    workload.fragments_kept = 7;
+    assert_int_equal(formula_used_bytes(&image, &workload), 8 * 6 * 4);
+    image.used.per_kept = 1;
+    assert_int_equal(formula_used_bytes(&image, &workload), 8 * 7);
+    image.used.per_kept = 100;
+    assert_int_equal(formula_used_bytes(&image, &workload), 8 * 6 * 4);
+}
+
 /* 16-bit formats take 2 bytes a channel; R8 takes one. */
 static void small_formats_take_few_bytes(void **state)
 {
@@ -143,6 +191,9 @@ int main(void)
         cmocka_unit_test(a_size_beyond_64_bits_stays_the_largest_number),
         cmocka_unit_test(ping_pong_buffers_count_twice),
         cmocka_unit_test(images_have_layers_and_samples_for_each_k),
+        cmocka_unit_test(an_extent_of_an_image_is_its_layers),
+        cmocka_unit_test(an_image_of_layers_is_an_array_where_it_has_one),
+        cmocka_unit_test(an_image_may_say_what_of_it_is_used),
         cmocka_unit_test(small_formats_take_few_bytes),
         cmocka_unit_test(loops_may_count_by_k_and_by_n),
     };

@@ -8,7 +8,7 @@
 #include <cmocka.h>
 
 #include "kit/fake_plan.h"
-#include "parent/mesh_look.h"
+#include "parent/plan_look.h"
 
 /* What happens is told by the mesh's name; each call leaves a line. */
 static const char worker_script[] =

@@ -245,6 +245,32 @@ static void what_cannot_be_culled_is_refused_with_the_reason(void **state)
     refuses(&method, NULL, FM_FEED_RASTER, FM_REASON_SETTING, "other fragments than the k nearest");
 }
 
+/* The option's other value has the buffer, in which there is room. */
+static void the_map_has_no_room_in_an_image(void **state)
+{
+    (void)state;
+    const fm_settings settings = make_settings(TEXTS("cull_memory", "shared"));
+    const fm_choice in_image = { "layout", "image" };
+    fm_error err = { .message = "" };
+    fm_method_desc culled, method = make_method();
+    fm_culling_desc desc = { .settings = &settings, .feed = FM_FEED_RASTER };
+    size_t count = resource_count(&method);
+    method.options[0] = (fm_option){ .name = "layout", .values = { "pixel", "image" } };
+    method.resources[count] = (fm_resource){ .name = "fragments",
+                                             .kind = FM_RESOURCE_IMAGE,
+                                             .format = FM_FORMAT_RG32UI,
+                                             .extent = { .per_pixel_k = 1 },
+                                             .when_option = "layout",
+                                             .when_value = "image" };
+    assert_int_equal(culling_apply(&culled, &method, &desc, &err), FM_OK);
+    assert_string_equal(culled.resources[count + 2].shares, "fragments");
+    desc.choices = &in_image;
+    desc.choice_count = 1;
+    assert_int_equal(culling_apply(&culled, &method, &desc, &err), FM_UNSUPPORTED);
+    assert_int_equal(err.reason, FM_REASON_SETTING);
+    assert_non_null(strstr(err.message, "with layout = image 'fragments' is an image"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -258,6 +284,7 @@ int main(void)
         cmocka_unit_test(the_map_lies_in_the_largest_buffer_if_asked),
         cmocka_unit_test(each_scene_pass_tests_for_itself),
         cmocka_unit_test(the_largest_buffer_is_as_options_and_n_make_it),
+        cmocka_unit_test(the_map_has_no_room_in_an_image),
         cmocka_unit_test(what_cannot_be_culled_is_refused_with_the_reason),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

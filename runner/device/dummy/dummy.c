@@ -91,6 +91,8 @@ static void fill_caps(fm_device_caps *caps, dummy_fault fault)
         .max_targets = FM_MAX_TARGETS,
         .storage_range_bytes = fault == FAULT_TINY ? DUMMY_TINY_BYTES : DUMMY_RANGE_BYTES,
         .buffer_max_bytes = DUMMY_RANGE_BYTES,
+        .image_layers = 2048,
+        .image_max_bytes = DUMMY_RANGE_BYTES,
         .memory_bytes = 4ull * DUMMY_RANGE_BYTES,
         .max_groups = { 65535, 65535, 65535 },
         .timestamp_ns = 1.0,

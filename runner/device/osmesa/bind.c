@@ -27,7 +27,7 @@ static void bind_one(const fm_gl *gl, const fm_bind *bind)
         gl->BindTextureUnit(bind->binding, bind->image->name);
         return;
     case FM_BINDING_STORAGE_IMAGE:
-        gl->BindImageTexture(bind->binding, bind->image->name, 0, bind->image->layers > 1, 0,
+        gl->BindImageTexture(bind->binding, bind->image->name, 0, bind->image->is_array, 0,
                              GL_READ_WRITE, osmesa_format_of(bind->image->format)->internal);
         return;
     }

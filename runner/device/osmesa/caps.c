@@ -4,8 +4,9 @@
 #include "context.h"
 #include "device/library.h"
 
-/* llvmpipe ends all loops of an invocation after LP_MAX_TGSI_LOOP_ITERATIONS, without a word. */
-enum { LLVMPIPE_LOOP_LIMIT = 65535 };
+/* llvmpipe ends all loops of an invocation after LP_MAX_TGSI_LOOP_ITERATIONS, without a word, and
+ * no image is larger than LP_MAX_TEXTURE_SIZE, which nothing reports. */
+enum { LLVMPIPE_LOOP_LIMIT = 65535, LLVMPIPE_IMAGE_BYTES = 1 << 30 };
 
 static GLint get_integer(const fm_gl *gl, GLenum name)
 {
@@ -70,7 +71,6 @@ void osmesa_limits_find(osmesa_limits *limits, const fm_gl *gl)
             [FM_BINDING_STORAGE_IMAGE] = get_integer(gl, GL_MAX_FRAGMENT_IMAGE_UNIFORMS),
         },
         .texture_px = get_integer(gl, GL_MAX_TEXTURE_SIZE),
-        .texture_layers = get_integer(gl, GL_MAX_ARRAY_TEXTURE_LAYERS),
         .uniform_bytes = get_integer(gl, GL_MAX_UNIFORM_BLOCK_SIZE),
     };
 }
@@ -104,6 +104,8 @@ void osmesa_caps_find(fm_device_caps *caps, const fm_gl *gl, const osmesa_librar
         .depth_samples = find_samples(gl, FM_FORMAT_D32F, FM_FORMAT_D32F_S8),
         .max_targets = draw_buffers < FM_MAX_TARGETS ? draw_buffers : FM_MAX_TARGETS,
         .storage_range_bytes = (uint64_t)storage_bytes,
+        .image_layers = (uint32_t)get_integer(gl, GL_MAX_ARRAY_TEXTURE_LAYERS),
+        .image_max_bytes = LLVMPIPE_IMAGE_BYTES,
         .timestamp_ns = 1.0,
     };
     for (GLuint axis = 0; axis < 3; axis++) {

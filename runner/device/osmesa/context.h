@@ -34,8 +34,9 @@ struct fm_buffer {
 struct fm_image_resource {
     GLuint name; /* of a texture; owned */
     fm_format format;
-    uint32_t layers; /* 1 or more; more than 1: an array */
-    uint64_t bytes;  /* as booked */
+    uint32_t layers; /* 1 or more */
+    bool is_array;
+    uint64_t bytes; /* as booked */
     fm_owner owner;
 };
 
@@ -64,8 +65,8 @@ typedef struct osmesa_attachments {
 typedef struct osmesa_limits {
     GLint binding_end[FM_BINDING_STORAGE_IMAGE + 1];
     GLint per_stage[FM_BINDING_STORAGE_IMAGE + 1];
-    GLint texture_px, texture_layers; /* the largest side, and the most layers, of an image */
-    GLint uniform_bytes;              /* of a block */
+    GLint texture_px;    /* the largest side of an image */
+    GLint uniform_bytes; /* of a block */
 } osmesa_limits;
 
 /* The device. What OpenGL made for it, but for buffers, images and pipelines, ends with its

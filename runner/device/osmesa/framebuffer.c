@@ -6,7 +6,7 @@
 static void attach(const fm_gl *gl, GLuint framebuffer, GLenum point,
                    const fm_image_resource *image, uint32_t layer)
 {
-    if (image->layers > 1)
+    if (image->is_array)
         gl->NamedFramebufferTextureLayer(framebuffer, point, image->name, 0, (GLint)layer);
     else
         gl->NamedFramebufferTexture(framebuffer, point, image->name, 0);

@@ -5,6 +5,12 @@
 #include "device/ledger.h"
 #include "model/formats.h"
 
+static uint64_t bytes_of(const fm_image_desc *desc, uint32_t layers, uint32_t samples)
+{
+    return (uint64_t)desc->width_px * desc->height_px * layers * samples *
+           format_bytes(desc->format);
+}
+
 static fm_status check_image(const osmesa *self, const fm_image_desc *desc, uint32_t layers,
                              uint32_t samples, fm_error *err)
 {
@@ -17,26 +23,30 @@ static fm_status check_image(const osmesa *self, const fm_image_desc *desc, uint
         return fm_refuse(err, FM_REASON_DEVICE_LIMIT,
                          "image '%s': %u x %u px, images of this device end at %u px", desc->name,
                          desc->width_px, desc->height_px, side);
-    if (layers > (uint32_t)self->limits.texture_layers)
+    if (layers > self->base.caps.image_layers)
         return fm_refuse(err, FM_REASON_DEVICE_LIMIT,
-                         "image '%s': %u layers, images of this device end at %d", desc->name,
-                         layers, self->limits.texture_layers);
+                         "image '%s': %u layers, images of this device end at %u", desc->name,
+                         layers, self->base.caps.image_layers);
     if (samples >= 32 || (possible >> samples & 1u) == 0)
         return fm_refuse(err, FM_REASON_DEVICE_LIMIT,
                          "image '%s': %u samples are not possible on this device", desc->name,
                          samples);
+    if (bytes_of(desc, layers, samples) > self->base.caps.image_max_bytes)
+        return fm_refuse(err, FM_REASON_DEVICE_LIMIT,
+                         "image '%s': %llu bytes, images of this device end at %llu", desc->name,
+                         (unsigned long long)bytes_of(desc, layers, samples),
+                         (unsigned long long)self->base.caps.image_max_bytes);
     return FM_OK;
 }
 
-/* layers > 1 make an array, samples > 1 a multisample texture: what the sampler types of the
- * shaders must be. */
+/* What the sampler types of the shaders must be. */
 static void create_texture(fm_image_resource *image, const fm_gl *gl, const fm_image_desc *desc,
                            uint32_t samples)
 {
     const GLenum format = osmesa_format_of(desc->format)->internal;
     const GLsizei width = (GLsizei)desc->width_px, height = (GLsizei)desc->height_px;
     const GLsizei layers = (GLsizei)image->layers;
-    if (samples > 1 && layers > 1) {
+    if (samples > 1 && image->is_array) {
         gl->CreateTextures(GL_TEXTURE_2D_MULTISAMPLE_ARRAY, 1, &image->name);
         gl->TextureStorage3DMultisample(image->name, (GLsizei)samples, format, width, height,
                                         layers, GL_TRUE);
@@ -44,7 +54,7 @@ static void create_texture(fm_image_resource *image, const fm_gl *gl, const fm_i
         gl->CreateTextures(GL_TEXTURE_2D_MULTISAMPLE, 1, &image->name);
         gl->TextureStorage2DMultisample(image->name, (GLsizei)samples, format, width, height,
                                         GL_TRUE);
-    } else if (layers > 1) {
+    } else if (image->is_array) {
         gl->CreateTextures(GL_TEXTURE_2D_ARRAY, 1, &image->name);
         gl->TextureStorage3D(image->name, 1, format, width, height, layers);
     } else {
@@ -73,8 +83,8 @@ fm_status osmesa_image_create(fm_image_resource **image, fm_device *device,
     made->format = desc->format;
     made->layers = layers;
     made->owner = desc->owner;
-    made->bytes =
-        (uint64_t)desc->width_px * desc->height_px * layers * samples * format_bytes(desc->format);
+    made->is_array = layers > 1 || desc->is_array;
+    made->bytes = bytes_of(desc, layers, samples);
     create_texture(made, &self->gl, desc, samples);
     status = gl_check_storage(&self->gl, "image", desc->name, made->bytes, err);
     if (status != FM_OK) {

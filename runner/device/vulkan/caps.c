@@ -3,8 +3,9 @@
 
 #include "context.h"
 
-/* llvmpipe ends all loops of an invocation after LP_MAX_TGSI_LOOP_ITERATIONS, without a word. */
-enum { LAVAPIPE_LOOP_LIMIT = 65535 };
+/* llvmpipe ends all loops of an invocation after LP_MAX_TGSI_LOOP_ITERATIONS, without a word, and
+ * no image is larger than LP_MAX_TEXTURE_SIZE, which nothing reports. */
+enum { LAVAPIPE_LOOP_LIMIT = 65535, LAVAPIPE_IMAGE_BYTES = 1 << 30 };
 
 static uint64_t device_local_bytes(const VkPhysicalDeviceMemoryProperties *memory)
 {
@@ -51,6 +52,18 @@ static void describe(vulkan *self, const VkPhysicalDeviceProperties *core,
              VK_API_VERSION_MINOR(core->apiVersion), VK_API_VERSION_PATCH(core->apiVersion));
 }
 
+/* Of those that shaders store into. */
+static uint64_t largest_image(VkPhysicalDevice physical, uint64_t largest_allocation)
+{
+    VkImageFormatProperties limits;
+    const VkImageUsageFlags usage =
+        vulkan_format_usage(FM_FORMAT_RG32UI) | VK_IMAGE_USAGE_STORAGE_BIT;
+    if (!vulkan_format_limits(&limits, physical, FM_FORMAT_RG32UI, usage))
+        return largest_allocation;
+    return limits.maxResourceSize < largest_allocation ? limits.maxResourceSize
+                                                       : largest_allocation;
+}
+
 static void set_limits(vulkan *self, const VkPhysicalDeviceLimits *limits,
                        const VkPhysicalDeviceVulkan11Properties *core11,
                        const VkPhysicalDeviceVulkan13Properties *core13)
@@ -66,6 +79,8 @@ static void set_limits(vulkan *self, const VkPhysicalDeviceLimits *limits,
     caps->buffer_max_bytes = core13->maxBufferSize < core11->maxMemoryAllocationSize
                                  ? core13->maxBufferSize
                                  : core11->maxMemoryAllocationSize;
+    caps->image_layers = limits->maxImageArrayLayers;
+    caps->image_max_bytes = largest_image(self->physical, core11->maxMemoryAllocationSize);
     caps->memory_bytes = device_local_bytes(&self->memory);
     memcpy(caps->max_groups, limits->maxComputeWorkGroupCount, sizeof caps->max_groups);
 }
@@ -111,4 +126,6 @@ void vulkan_caps_find(vulkan *self)
     caps->needs_lock_barriers = !is_lavapipe;
     caps->counts_accesses = true;
     caps->loop_limit = is_lavapipe ? LAVAPIPE_LOOP_LIMIT : 0;
+    if (is_lavapipe && caps->image_max_bytes > LAVAPIPE_IMAGE_BYTES)
+        caps->image_max_bytes = LAVAPIPE_IMAGE_BYTES;
 }

@@ -82,6 +82,21 @@ VkClearColorValue vulkan_clear_colour(const float colour[4])
     return value;
 }
 
+static uint64_t bytes_of(const fm_image_desc *desc, uint32_t samples, uint32_t layers)
+{
+    return (uint64_t)desc->width_px * desc->height_px * layers * samples *
+           format_bytes(desc->format);
+}
+
+static fm_status check_bytes(const vulkan *self, const char *name, uint64_t bytes, fm_error *err)
+{
+    const uint64_t most = self->base.caps.image_max_bytes;
+    return bytes <= most ? FM_OK
+                         : fm_refuse(err, FM_REASON_DEVICE_LIMIT,
+                                     "image '%s': %llu bytes, this device's most are %llu", name,
+                                     (unsigned long long)bytes, (unsigned long long)most);
+}
+
 static fm_status check_image(const VkImageFormatProperties *limits, const fm_image_desc *desc,
                              uint32_t samples, uint32_t layers, fm_error *err)
 {
@@ -122,15 +137,14 @@ static fm_status find_usage(VkImageUsageFlags *usage, const vulkan *self, const 
 }
 
 static VkResult create_view(VkImageView *view, const vulkan *self, const fm_image_resource *image,
-                            fm_format format, VkImageAspectFlags aspects, uint32_t layers)
+                            VkFormat format, VkImageViewType type,
+                            const VkImageSubresourceRange *range)
 {
-    const VkImageViewCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
-        .image = image->image,
-        .viewType = layers > 1 ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D,
-        .format = vulkan_format_of(format)->format,
-        .subresourceRange = { .aspectMask = aspects, .levelCount = 1, .layerCount = layers },
-    };
+    const VkImageViewCreateInfo info = { .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
+                                         .image = image->image,
+                                         .viewType = type,
+                                         .format = format,
+                                         .subresourceRange = *range };
     return vkCreateImageView(self->device, &info, NULL, view);
 }
 
@@ -169,16 +183,26 @@ static fm_status to_general_layout(vulkan *self, const fm_image_resource *image,
     return vulkan_transfer_end(self, err);
 }
 
-static VkResult create_views(fm_image_resource *image, const vulkan *self, fm_format format,
-                             uint32_t layers)
+/* Targets are the first layer; shaders see all, and of depth and stencil the depth. */
+static VkResult create_views(fm_image_resource *image, const vulkan *self,
+                             const fm_image_desc *desc, uint32_t layers)
 {
-    const VkImageAspectFlags read =
-        vulkan_format_of(format)->has_depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
-    const VkResult result =
-        create_view(&image->target_view, self, image, format, image->aspects, 1);
+    const vulkan_format *format = vulkan_format_of(desc->format);
+    const VkImageSubresourceRange target = { .aspectMask = image->aspects,
+                                             .levelCount = 1,
+                                             .layerCount = 1 };
+    const VkImageSubresourceRange shader = { .aspectMask = format->has_depth
+                                                               ? VK_IMAGE_ASPECT_DEPTH_BIT
+                                                               : VK_IMAGE_ASPECT_COLOR_BIT,
+                                             .levelCount = 1,
+                                             .layerCount = layers };
+    const VkImageViewType type =
+        layers > 1 || desc->is_array ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
+    const VkResult result = create_view(&image->target_view, self, image, format->format,
+                                        VK_IMAGE_VIEW_TYPE_2D, &target);
     return result != VK_SUCCESS
                ? result
-               : create_view(&image->shader_view, self, image, format, read, layers);
+               : create_view(&image->shader_view, self, image, format->format, type, &shader);
 }
 
 static VkImageAspectFlags aspects_of(fm_format format)
@@ -195,7 +219,10 @@ static fm_status back_with_memory(fm_image_resource *image, const vulkan *self, 
     vulkan_memory_desc desc = { .kind = VULKAN_MEMORY_DEVICE };
     vulkan_memory memory;
     vkGetImageMemoryRequirements(self->device, image->image, &desc.needs);
-    const fm_status status = vulkan_memory_allocate(&memory, self, &desc, err);
+    fm_status status = check_bytes(self, name, desc.needs.size, err); /* padded */
+    if (status != FM_OK)
+        return status;
+    status = vulkan_memory_allocate(&memory, self, &desc, err);
     if (status != FM_OK && err != NULL)
         fm_error_prefix(err, "image '%s'", name);
     if (status != FM_OK)
@@ -225,7 +252,7 @@ static fm_status make(fm_image_resource *image, vulkan *self, const fm_image_des
     const fm_status status = back_with_memory(image, self, desc->name, err);
     if (status != FM_OK)
         return status;
-    result = create_views(image, self, desc->format, layers);
+    result = create_views(image, self, desc, layers);
     if (result != VK_SUCCESS)
         return vulkan_fail(err, result, "image '%s': view", desc->name);
     return to_general_layout(self, image, err);
@@ -240,6 +267,8 @@ fm_status vulkan_image_create(fm_image_resource **image, fm_device *device,
     VkImageUsageFlags usage = 0;
     *image = NULL;
     fm_status status = find_usage(&usage, self, desc, samples, layers, err);
+    if (status == FM_OK)
+        status = check_bytes(self, desc->name, bytes_of(desc, samples, layers), err);
     if (status != FM_OK)
         return status;
     fm_image_resource *made = calloc(1, sizeof *made);
@@ -251,8 +280,7 @@ fm_status vulkan_image_create(fm_image_resource **image, fm_device *device,
     made->owner = desc->owner;
     made->can_store = (usage & VK_IMAGE_USAGE_STORAGE_BIT) != 0;
     snprintf(made->name, sizeof made->name, "%s", desc->name);
-    made->bytes =
-        (uint64_t)desc->width_px * desc->height_px * layers * samples * format_bytes(desc->format);
+    made->bytes = bytes_of(desc, samples, layers);
     status = make(made, self, desc, usage, layers, err);
     if (status != FM_OK)
         goto out;

@@ -41,6 +41,8 @@ static void choose_features(feature_chain *use, const feature_chain *has)
     use->core12.shaderBufferInt64Atomics = has->core12.shaderBufferInt64Atomics;
     use->core12.bufferDeviceAddress = has->core12.bufferDeviceAddress;
     use->core12.hostQueryReset = has->core12.hostQueryReset;
+    use->core12.vulkanMemoryModel = has->core12.vulkanMemoryModel;
+    use->core12.vulkanMemoryModelDeviceScope = has->core12.vulkanMemoryModelDeviceScope;
     use->core13.dynamicRendering = has->core13.dynamicRendering;
     use->core13.synchronization2 = has->core13.synchronization2;
     use->core13.maintenance4 = has->core13.maintenance4;
@@ -124,6 +126,8 @@ fm_status vulkan_logical_device_create(vulkan *self, fm_error *err)
     vkGetPhysicalDeviceFeatures2(self->physical, &has.core);
     choose_features(&use, &has);
     self->base.caps.features = feature_bits(&use, &extensions, self->physical);
+    self->base.caps.has_memory_model =
+        use.core12.vulkanMemoryModel && use.core12.vulkanMemoryModelDeviceScope;
     if (!use.core12.bufferDeviceAddress)
         self->base.caps.buffer_max_bytes = 0;
     self->can_store_multisampled = use.core.features.shaderStorageImageMultisample;

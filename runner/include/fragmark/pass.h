@@ -27,13 +27,15 @@
  *
  * What a shader sees:
  *   buffers       by their names: fragments[i]. fm_length_NAME is how many elements there are now,
- *                 a uint. Only what stands in `reads` or `writes` is declared
+ *                 a uint. Only what stands in `reads` or `writes` is declared. FM_WRITES_NAME, NAME
+ *                 in upper case, is 1 where shaders may store into the buffer or image
  *   images        fm_load_NAME(pixel) is the texel, a vec4 or, of integer formats, a uvec4. If the
  *                 pass lists the image in `writes` there is fm_store_NAME(pixel, value) too, and
  *                 fm_image_NAME itself, for imageAtomicAdd and its like on FM_FORMAT_R32UI.
- *                 If the image has more than one layer, `uint layer` follows `pixel` in both, and
- *                 fm_image_NAME is an image2DArray. If it has more than one sample, fm_load_NAME
- *                 takes `int sample` as its last argument, and shaders cannot store to it
+ *                 If the image may have more than one layer, whatever k, n and options are, `uint
+ *                 layer` follows `pixel` in both, and fm_image_NAME is an image2DArray, also where
+ *                 there is one. If it has more than one sample, fm_load_NAME takes `int sample` as
+ *                 its last argument, and shaders cannot store to it
  *   targets       fm_target_NAME, written by a pass that draws: float, vec2 or vec4 by the format's
  *                 channels, or uint, uvec2, uvec4
  *   parameters    K (at least 1), N (the most fragments of a pixel, at least 1), FM_WIDTH,
@@ -63,8 +65,10 @@
  *                 counts its loops, and stops before, says so by fm_cut()
  *   locks         an exclusive store() runs alone at its pixel. A spin lock gives up after
  *                 FM_SPIN_MAX tries and counts the fragment as lost. The lock orders accesses to
- *                 buffers only: keep what fragments share in buffers, not in images
- *   order         fm_fence() between two accesses to buffers that others must see in this order
+ *                 the buffers and images in `writes`: what one owner stored the next one loads.
+ *                 wanted() runs beside an owner, and may read what is older
+ *   order         fm_fence() between two accesses to buffers or images that others must see in
+ *                 this order
  *   devices       FM_SUBGROUP_SIZE; FM_NARROW, 1 where that is below 32; FM_GROUP_LANES; for each
  * of features_optional FM_HAS_x (FM_FEATURE_x), 1 or 0 triangles     in the feed of that name,
  * passes over tiles, triangles, totals and indirect ones see the scene's FM_TRIANGLES triangles in
@@ -196,8 +200,8 @@ typedef struct fm_state {
  * or k is beyond the bound below, FM_RESUMES is 1 in the pass's shader: it does a part of the work,
  * in FM_RUN_ITERATIONS at most, and calls fm_go_on() if there is more. As long as some invocation
  * does, the pass runs again with fm_run one higher: 0, 1, 2, ... What has to outlive a run lies in
- * buffers; those in `reads` may be written, too. Elsewhere, so on a device without a limit,
- * FM_RESUMES is 0 and the pass runs once. */
+ * buffers and images; those in `reads` may be written, too (of images: of colour, one sample).
+ * Elsewhere, so on a device without a limit, FM_RESUMES is 0 and the pass runs once. */
 typedef enum fm_resumes {
     FM_RESUMES_NEVER,  /* beyond the limit the case is not_supported */
     FM_RESUMES_BY_N,   /* it sorts n fragments: n above FM_LOOP_LIMIT / 32 */

@@ -38,7 +38,7 @@ typedef struct fm_extent {
 } fm_extent;
 
 /* How many elements of a buffer hold something in a frame: what bytes_used reports. Each factor is
- * 4096 at most. The sum is cut at the buffer's length. An image counts whole. */
+ * 4096 at most. The sum is cut at the resource's length. */
 typedef struct fm_used {
     uint64_t per_pixel;    /* times the pixels of the viewport */
     uint64_t per_fragment; /* times F, all fragments of the frame */
@@ -105,7 +105,8 @@ typedef struct fm_resource {
 
     /* Of buffers. */
     fm_element element;   /* type of an element */
-    fm_extent extent;     /* its length, in elements; a length of 0 is allocated as 1 */
+    fm_extent extent;     /* its length, in elements; a length of 0 is allocated as 1. Of an image
+                             instead of `layers`: see there */
     fm_sizing sizing;     /* when that is known */
     const char *overflow; /* FM_SIZE_GROW: the total that counts elements without room */
     fm_extent grown;      /* FM_SIZE_GROW: elements that a frame needs in the end. bytes_predicted
@@ -120,7 +121,11 @@ typedef struct fm_resource {
     uint32_t samples_per_k;  /* added to them: this times k; 16 at most */
     uint32_t layers;         /* array layers, 2048 at most; 0 is 1 */
     uint32_t layers_per_k;   /* added to them: this times k; 2048 at most. Shaders name the layer
-                                where there may be more than one: see pass.h */
+                                where there may be more than one: see pass.h. Instead of both,
+                                `extent` may say how many elements a pixel has, each on a layer of
+                                its own, by per_pixel, per_pixel_k, per_pixel_n and
+                                per_pixel_option: as the buffer has it that the image stands in for
+                                (when_option) */
     float clear_colour[4];   /* what a clear pass, or a target with FM_LOAD_CLEAR, writes: R G B A
                                 in the format's range. Integer formats take its bits, if
                                 clear_words is zero */
@@ -132,12 +137,16 @@ typedef struct fm_resource {
     bool ping_pong; /* there are two copies, and after each iteration of a loop they swap: NAME is
                        the copy that is written, NAME_previous (a name for `reads`) the one that the
                        last iteration wrote. Both copies are booked */
-    fm_used used;   /* elements that hold something; buffers */
+    fm_used used;   /* elements that hold something, or texels; an image with none counts whole */
     const char *samples_option; /* images; samples added to the others: the whole number that this
                                    option is */
 
-    /* Not yet, refused where it is set: the resource is there only where option `when_option` has
-     * the value `when_value`. */
+    /* The resource is there only where option `when_option` has the value `when_value`, and then
+     * takes the place of the one of the same name that has no condition, which has to be declared,
+     * too: a layered image for a buffer, say. Passes name either by that name, and what they do
+     * with it must suit both. The macro of the option tells shaders which one it is. Stand-ins of
+     * one name hang on one option. Neither they nor what they replace are ping-pong, sized after a
+     * total, growing or shared, and no total, target, depth or indirect pass names them. */
     const char *when_option, *when_value;
 } fm_resource;
 

@@ -1,4 +1,4 @@
-#include "mesh_look.h"
+#include "plan_look.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -62,9 +62,27 @@ static fm_status no_memory(fm_error *err)
     return fm_fail(err, FM_NO_MEMORY, "no memory for the names of meshes");
 }
 
+/* Whoever asks drops outcome->result. */
+static fm_status ask(fm_launch_outcome *outcome, look *state, const fm_request *request,
+                     const char *input)
+{
+    const fm_launch_desc desc = { .worker = state->worker,
+                                  .request = state->request,
+                                  .result = state->result,
+                                  .log = state->log,
+                                  .input = input,
+                                  .timeout_s = LOOK_TIMEOUT_S };
+    *outcome = (fm_launch_outcome){ 0 };
+    fm_status status = request_write(state->request, request, state->err);
+    if (status == FM_OK)
+        status = launch_worker(outcome, &state->signals, &desc, state->err);
+    state->stop_signal = outcome->stop_signal;
+    return status;
+}
+
 static fm_status look_at(look *state, const fm_case *planned)
 {
-    fm_launch_outcome outcome = { 0 };
+    fm_launch_outcome outcome;
     const fm_request request = { .is_mesh_job = true,
                                  .plugin = "",
                                  .floor = "",
@@ -74,16 +92,7 @@ static fm_status look_at(look *state, const fm_case *planned)
                                  .settings = &planned->settings,
                                  .truth = "",
                                  .image = "" };
-    const fm_launch_desc desc = { .worker = state->worker,
-                                  .request = state->request,
-                                  .result = state->result,
-                                  .log = state->log,
-                                  .input = planned->settings.mesh,
-                                  .timeout_s = LOOK_TIMEOUT_S };
-    fm_status status = request_write(state->request, &request, state->err);
-    if (status == FM_OK)
-        status = launch_worker(&outcome, &state->signals, &desc, state->err);
-    state->stop_signal = outcome.stop_signal;
+    fm_status status = ask(&outcome, state, &request, planned->settings.mesh);
     if (status == FM_OK && state->stop_signal == 0) {
         tell(state->talk, planned->settings.mesh, outcome.result);
         if (answer_mesh(outcome.result) == NULL &&
@@ -130,6 +139,57 @@ fm_status mesh_look(fm_mesh_look *found, FILE *talk, const fm_plan *plan, const 
     if (status == FM_OK) {
         status = look_at_all(&state, plan);
         found->stop_signal = state.stop_signal;
+        stop_signals_close(&state.signals);
+    }
+    remove_files(&state);
+    return status;
+}
+
+static fm_status take_device(fm_layout_device *found, const look *state, const char *name,
+                             const json_t *answer)
+{
+    fm_answer_device device;
+    if (state->stop_signal != 0)
+        return fm_fail(state->err, FM_IO, "device '%s': interrupted", name);
+    if (!answer_device(&device, answer))
+        return fm_fail(state->err, FM_IO, "%s", answer_message(answer));
+    *found = (fm_layout_device){ .is_software = device.is_software,
+                                 .image_layers = device.image_layers,
+                                 .image_max_bytes = device.image_max_bytes };
+    return FM_OK;
+}
+
+static fm_status ask_device(fm_layout_device *found, look *state, const char *name)
+{
+    fm_settings settings;
+    fm_launch_outcome outcome;
+    settings_default(&settings);
+    const fm_request request = { .is_device_job = true,
+                                 .plugin = "",
+                                 .floor = "",
+                                 .common = "",
+                                 .device = name,
+                                 .feed = "",
+                                 .settings = &settings,
+                                 .truth = "",
+                                 .image = "" };
+    fm_status status = ask(&outcome, state, &request, NULL);
+    if (status == FM_OK)
+        status = take_device(found, state, name, outcome.result);
+    json_decref(outcome.result);
+    return status;
+}
+
+fm_status device_look(fm_layout_device *found, const void *worker, const char *device,
+                      fm_error *err)
+{
+    look state = { .worker = worker, .err = err };
+    fm_status status = make_files(&state);
+    if (status != FM_OK)
+        return status;
+    status = stop_signals_open(&state.signals, err);
+    if (status == FM_OK) {
+        status = ask_device(found, &state, device);
         stop_signals_close(&state.signals);
     }
     remove_files(&state);

@@ -1,6 +1,7 @@
-/* What the meshes of a plan hold, without a run: each is read once by a worker, which may crash. */
-#ifndef FM_MESH_LOOK_H
-#define FM_MESH_LOOK_H
+/* What a plan is to know that only a worker finds out, because it may crash of it: what meshes
+ * hold, and what a device is. Without a run. */
+#ifndef FM_PLAN_LOOK_H
+#define FM_PLAN_LOOK_H
 
 #include <stdio.h>
 
@@ -18,5 +19,11 @@ typedef struct fm_mesh_look {
  * executable; NULL: this program. FM_IO, FM_INVALID: no worker could be started. FM_NO_MEMORY. */
 fm_status mesh_look(fm_mesh_look *found, FILE *talk, const fm_plan *plan, const char *worker,
                     fm_error *err);
+
+/* As fm_plan_request.ask: has a worker open the device. `worker`: the executable, a const char *;
+ * NULL: this program. FM_IO: it cannot be opened, with the reason, or no worker could be started.
+ */
+fm_status device_look(fm_layout_device *found, const void *worker, const char *device,
+                      fm_error *err);
 
 #endif
