@@ -7,16 +7,16 @@ const fm_method_desc fm_method = {
     .title = "KB-MDT",
     .citation = "Maule, Comba, Torchelsen, Bastos 2013, Hybrid Transparency, "
                 "doi:10.1145/2448196.2448212",
-    .version = "1",
+    .version = "2",
     .traits = FM_TRAIT_BOUNDED | FM_TRAIT_LOSES_TIES,
     .keeps = FM_KEEPS_K_NEAREST,
     .family = FM_FAMILY_K_BUFFER,
     .marker = FM_MARKER_CROSS,
     .options = { { .name = "depth_bits", .values = { "exact", "published" },
                    .help = "the float's bits, or the k+-buffer paper's quantisation" },
-                 { .name = "layout", .values = { "pixel", "layer", "tile", "image" },
+                 { .name = "layout", .values = { "auto", "pixel", "layer", "tile", "image" },
                    .help = "side by side: a pixel's, the i-th of all pixels, or of a tile; image: a "
-                           "layer each" } },
+                           "layer each; auto: the fastest of them on the device" } },
     .resources = {
         { .name = "keys", .extent = { .per_pixel_k = 1 }, .used = { .per_kept = 1 } },
         { .name = "keys", .kind = FM_RESOURCE_IMAGE, .format = FM_FORMAT_R32UI,

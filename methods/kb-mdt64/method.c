@@ -7,14 +7,15 @@ const fm_method_desc fm_method = {
     .title = "KB-MDT-64",
     .citation = "Maule, Comba, Torchelsen, Bastos 2013, Hybrid Transparency, "
                 "doi:10.1145/2448196.2448212",
-    .version = "2",
+    .version = "3",
     .traits = FM_TRAIT_EXACT | FM_TRAIT_BOUNDED,
     .features = FM_FEATURE_INT64_ATOMICS,
     .keeps = FM_KEEPS_K_NEAREST,
     .family = FM_FAMILY_K_BUFFER,
     .marker = FM_MARKER_DIAMOND,
-    .options = { { .name = "layout", .values = { "pixel", "layer", "tile" },
-                   .help = "side by side: a pixel's, the i-th of all pixels, or of a tile" } },
+    .options = { { .name = "layout", .values = { "auto", "pixel", "layer", "tile" },
+                   .help = "side by side: a pixel's, the i-th of all pixels, or of a tile; auto: "
+                           "the fastest of them on the device" } },
     .resources = {
         { .name = "keys", .element = FM_ELEMENT_UINT64, .extent = { .per_pixel_k = 1 },
           .used = { .per_kept = 1 } },
