@@ -6,14 +6,15 @@ const fm_method_desc fm_method = {
     .id = "ab-array",
     .title = "AB-Array (FreePipe)",
     .citation = "Liu, Huang, Liu, Wu 2010, FreePipe, doi:10.1145/1730804.1730817; Crassin 2010",
-    .version = "1",
+    .version = "2",
     .traits = FM_TRAIT_EXACT | FM_TRAIT_SORTS_IN_RESOLVE | FM_TRAIT_EMITS_EITHER,
     .keeps = FM_KEEPS_ALL,
     .family = FM_FAMILY_A_BUFFER,
     .marker = FM_MARKER_SQUARE,
     .options = {
-        { .name = "layout", .values = { "pixel", "layer", "tile", "image" },
-          .help = "side by side: a pixel's, the i-th of all pixels, or of a tile; image: a layer each" },
+        { .name = "layout", .values = { "auto", "pixel", "layer", "tile", "image" },
+          .help = "side by side: a pixel's, the i-th of all pixels, or of a tile; image: a layer each; "
+                  "auto: the fastest of them on the device" },
         { .name = "sort", .values = { "shell", "registers", "blocks" },
           .help = "in resolve: in a private array, up to 32 in registers, or in blocks of 32" },
     },

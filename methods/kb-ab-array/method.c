@@ -13,8 +13,9 @@ const fm_method_desc fm_method = {
     .marker = FM_MARKER_SQUARE,
     .dashed = true,
     .options = {
-        { .name = "layout", .values = { "pixel", "layer", "tile", "image" },
-          .help = "side by side: a pixel's, the i-th of all pixels, or of a tile; image: a layer each" },
+        { .name = "layout", .values = { "auto", "pixel", "layer", "tile", "image" },
+          .help = "side by side: a pixel's, the i-th of all pixels, or of a tile; image: a layer each; "
+                  "auto: the fastest of them on the device" },
         { .name = "select", .values = { "registers", "heap", "farthest" },
           .help = "the k nearest so far: in order, as a heap, or as the paper's farthest one" },
     },

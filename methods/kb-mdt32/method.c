@@ -14,9 +14,9 @@ const fm_method_desc fm_method = {
     .marker = FM_MARKER_CROSS,
     .options = { { .name = "depth_bits", .values = { "exact", "published" },
                    .help = "the float's bits, or the k+-buffer paper's quantisation" },
-                 { .name = "layout", .values = { "pixel", "layer", "tile", "image" },
+                 { .name = "layout", .values = { "auto", "pixel", "layer", "tile", "image" },
                    .help = "side by side: a pixel's, the i-th of all pixels, or of a tile; image: a "
-                           "layer each" },
+                           "layer each; auto: the fastest of them on the device" },
                  { .name = "start", .values = { "auto", "front", "half", "binary" },
                    .help = "slot that a chain begins at: the first, by a look at k/2, searched" } },
     .resources = {

@@ -13,8 +13,9 @@ const fm_method_desc fm_method = {
     .keeps = FM_KEEPS_K_NEAREST,
     .family = FM_FAMILY_K_BUFFER,
     .marker = FM_MARKER_DIAMOND,
-    .options = { { .name = "layout", .values = { "pixel", "layer", "tile" },
-                   .help = "side by side: a pixel's, the i-th of all pixels, or of a tile" },
+    .options = { { .name = "layout", .values = { "auto", "pixel", "layer", "tile" },
+                   .help = "side by side: a pixel's, the i-th of all pixels, or of a tile; auto: "
+                           "the fastest of them on the device" },
                  { .name = "start", .values = { "auto", "front", "half", "binary" },
                    .help = "slot that a chain begins at: the first, by a look at k/2, searched" } },
     .resources = {

@@ -6,15 +6,15 @@ const fm_method_desc fm_method = {
     .id = "kb-multi",
     .title = "KB-Multi",
     .citation = "Liu, Wei, Xu, Wu 2009, Multi-Layer Depth Peeling via Fragment Sort, CAD/Graphics",
-    .version = "1",
+    .version = "2",
     .traits = FM_TRAIT_BOUNDED | FM_TRAIT_SORTS_IN_RESOLVE | FM_TRAIT_LOSES_TIES | FM_TRAIT_RACY |
               FM_TRAIT_EMITS_EITHER,
     .keeps = FM_KEEPS_K_NEAREST,
     .family = FM_FAMILY_K_BUFFER,
     .marker = FM_MARKER_PLUS,
-    .options = { { .name = "layout", .values = { "pixel", "layer", "tile", "image" },
+    .options = { { .name = "layout", .values = { "auto", "pixel", "layer", "tile", "image" },
                    .help = "side by side: a pixel's, the i-th of all pixels, or of a tile; image: a "
-                           "layer each" } },
+                           "layer each; auto: the fastest of them on the device" } },
     .resources = {
         { .name = "changed", .extent = { .constant = 1 } }, /* 1 when a fragment was stored */
         { .name = "fragments", .element = FM_ELEMENT_UVEC2, .extent = { .per_pixel_k = 1 },

@@ -6,7 +6,7 @@ const fm_method_desc fm_method = {
     .id = "kb-multipass",
     .title = "KB, multi-pass",
     .citation = "Bavoil, Callahan, Lefohn, Comba, Silva 2007, doi:10.1145/1230100.1230117",
-    .version = "1",
+    .version = "2",
     .traits = FM_TRAIT_BOUNDED | FM_TRAIT_RACY | FM_TRAIT_PASSES_LOSE_TIES,
     .keeps = FM_KEEPS_K_NEAREST,
     .family = FM_FAMILY_K_BUFFER,
@@ -15,9 +15,9 @@ const fm_method_desc fm_method = {
     .options = {
         { .name = "slots", .values = { "8", "16", "4", "2", "1", "32" },
           .help = "fragments of a pixel that one pass keeps: the render targets" },
-        { .name = "layout", .values = { "pixel", "layer", "tile", "image" },
+        { .name = "layout", .values = { "auto", "pixel", "layer", "tile", "image" },
           .help = "side by side: a pixel's, the i-th of all pixels, or of a tile; image: a "
-                           "layer each" },
+                           "layer each; auto: the fastest of them on the device" },
     },
     .resources = {
         { .name = "fragments", .element = FM_ELEMENT_UVEC2,

@@ -6,14 +6,14 @@ const fm_method_desc fm_method = {
     .id = "kb-packed",
     .title = "KB, packed",
     .citation = "Bavoil, Callahan, Lefohn, Comba, Silva 2007, doi:10.1145/1230100.1230117",
-    .version = "1",
+    .version = "2",
     .traits = FM_TRAIT_BOUNDED | FM_TRAIT_RACY,
     .keeps = FM_KEEPS_K_NEAREST,
     .family = FM_FAMILY_K_BUFFER,
     .marker = FM_MARKER_DIAMOND,
-    .options = { { .name = "layout", .values = { "pixel", "layer", "tile", "image" },
+    .options = { { .name = "layout", .values = { "auto", "pixel", "layer", "tile", "image" },
                    .help = "side by side: a pixel's, the i-th of all pixels, or of a tile; image: a "
-                           "layer each" } },
+                           "layer each; auto: the fastest of them on the device" } },
     .resources = {
         { .name = "pairs", .element = FM_ELEMENT_UVEC4,
           .extent = { .per_pixel_k = 1, .k_step = 2 }, .used = { .per_kept = 1 } },

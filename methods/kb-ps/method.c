@@ -6,14 +6,14 @@ const fm_method_desc fm_method = {
     .id = "kb-ps",
     .title = "KB-PS",
     .citation = "Salvi 2013, Pixel Synchronization, SIGGRAPH course",
-    .version = "1",
+    .version = "2",
     .traits = FM_TRAIT_EXACT | FM_TRAIT_BOUNDED,
     .keeps = FM_KEEPS_K_NEAREST,
     .family = FM_FAMILY_K_BUFFER,
     .marker = FM_MARKER_SQUARE,
-    .options = { { .name = "layout", .values = { "pixel", "layer", "tile", "image" },
+    .options = { { .name = "layout", .values = { "auto", "pixel", "layer", "tile", "image" },
                    .help = "side by side: a pixel's, the i-th of all pixels, or of a tile; image: a "
-                           "layer each" } },
+                           "layer each; auto: the fastest of them on the device" } },
     .resources = {
         { .name = "fragments", .element = FM_ELEMENT_UVEC2, .extent = { .per_pixel_k = 1 },
           .used = { .per_kept = 1 } },

@@ -6,16 +6,16 @@ const fm_method_desc fm_method = {
     .id = "kb-sr-counter",
     .title = "KB-SR, counter",
     .citation = "after Bavoil, Myers 2008, Deferred Rendering using a Stencil Routed K-Buffer, ShaderX6",
-    .version = "1",
+    .version = "2",
     .traits = FM_TRAIT_BOUNDED | FM_TRAIT_SORTED_INPUT | FM_TRAIT_SORTS_IN_RESOLVE |
               FM_TRAIT_EMITS_EITHER,
     .keeps = FM_KEEPS_K_NEAREST,
     .family = FM_FAMILY_K_BUFFER,
     .marker = FM_MARKER_SQUARE,
     .dashed = true,
-    .options = { { .name = "layout", .values = { "pixel", "layer", "tile", "image" },
+    .options = { { .name = "layout", .values = { "auto", "pixel", "layer", "tile", "image" },
                    .help = "side by side: a pixel's, the i-th of all pixels, or of a tile; image: a "
-                           "layer each" } },
+                           "layer each; auto: the fastest of them on the device" } },
     .resources = {
         { .name = "arrivals", .extent = { .per_pixel = 1 }, .used = { .per_pixel = 1 } },
         { .name = "fragments", .element = FM_ELEMENT_UVEC2, .extent = { .per_pixel_k = 1 },

@@ -10,7 +10,7 @@ const fm_method_desc fm_method = {
     .title = "K+B-Dynamic",
     .citation = "Vasilakis, Papaioannou, Fudos 2015, k+-buffer: An Efficient, Memory-Friendly and "
                 "Dynamic k-Buffer Framework, IEEE TVCG 21(6)",
-    .version = "3",
+    .version = "4",
     .traits = FM_TRAIT_EXACT | FM_TRAIT_SORTS_IN_RESOLVE | FM_TRAIT_EMITS_EITHER,
     .keeps = FM_KEEPS_K_NEAREST,
     .k_total = "k",
@@ -26,8 +26,9 @@ const fm_method_desc fm_method = {
           .help = "the counting pass as all others, or without tessellation (flat layers)" },
         { .name = "kept_in", .values = { "rule", "array", "heap" },
           .help = "max-array, max-heap, or the papers' rule: the heap if the chosen k is above 16" },
-        { .name = "layout", .values = { "pixel", "layer", "tile" },
-          .help = "side by side: a pixel's, the i-th of all pixels, or of a tile" },
+        { .name = "layout", .values = { "auto", "pixel", "layer", "tile" },
+          .help = "side by side: a pixel's, the i-th of all pixels, or of a tile; auto: "
+                           "the fastest of them on the device" },
     },
     .resources = {
         { .name = "counters", .extent = { .per_pixel = 1 }, .used = { .per_pixel = 1 } },

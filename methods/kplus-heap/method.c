@@ -6,14 +6,14 @@ const fm_method_desc fm_method = {
     .id = "kplus-heap",
     .title = "K+B-Heap",
     .citation = "Vasilakis, Fudos 2014, k+-buffer, doi:10.1145/2556700.2556702",
-    .version = "2",
+    .version = "3",
     .traits = FM_TRAIT_EXACT | FM_TRAIT_BOUNDED | FM_TRAIT_SORTS_IN_RESOLVE | FM_TRAIT_EMITS_EITHER,
     .keeps = FM_KEEPS_K_NEAREST,
     .family = FM_FAMILY_K_PLUS_BUFFER,
     .marker = FM_MARKER_DIAMOND,
-    .options = { { .name = "layout", .values = { "pixel", "layer", "tile", "image" },
+    .options = { { .name = "layout", .values = { "auto", "pixel", "layer", "tile", "image" },
                    .help = "side by side: a pixel's, the i-th of all pixels, or of a tile; image: a "
-                           "layer each" },
+                           "layer each; auto: the fastest of them on the device" },
                  { .name = "children", .values = { "4", "2" },
                    .help = "of a slot of the heap; the paper has 2" } },
     .resources = {

@@ -6,16 +6,16 @@ const fm_method_desc fm_method = {
     .id = "mlab",
     .title = "MLAB",
     .citation = "Salvi, Vaidyanathan 2014, Multi-Layer Alpha Blending, doi:10.1145/2556700.2556705",
-    .version = "1",
+    .version = "2",
     .traits = FM_TRAIT_BOUNDED | FM_TRAIT_APPROXIMATE | FM_TRAIT_SORTED_INPUT |
               FM_TRAIT_READS_COLOUR,
     .keeps = FM_KEEPS_ALL_IN_K,
     .family = FM_FAMILY_K_BUFFER,
     .marker = FM_MARKER_CROSS,
     .dashed = true,
-    .options = { { .name = "layout", .values = { "pixel", "layer", "tile", "image" },
+    .options = { { .name = "layout", .values = { "auto", "pixel", "layer", "tile", "image" },
                    .help = "side by side: a pixel's, the i-th of all pixels, or of a tile; image: a "
-                           "layer each" } },
+                           "layer each; auto: the fastest of them on the device" } },
     .resources = {
         { .name = "fragments", .element = FM_ELEMENT_UVEC2, .extent = { .per_pixel_k = 1 },
           .used = { .per_kept = 1 } },

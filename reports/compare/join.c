@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/text_index.h"
+#include "model/layout.h"
 #include "read/options.h"
 #include "read/workload.h"
 
@@ -18,14 +19,16 @@ typedef struct joiner {
 
 void join_add_name(fm_text *name, const fm_case_row *row)
 {
-    char workload[WORKLOAD_KEY_BYTES], kept[FM_OPTIONS_TEXT_BYTES];
+    char workload[WORKLOAD_KEY_BYTES], kept[FM_OPTIONS_TEXT_BYTES], layout[FM_OPTION_VALUE_BYTES];
     const char *options = row->options;
     workload_key(workload, row, NULL);
     if (strlen(options) < sizeof kept) {
         options_drop(kept, options, row->look.defaults);
         options = kept;
     }
-    text_add(name, "%s%s|%.17g|%s", row->method, workload, isnan(row->k) ? 0.0 : row->k, options);
+    options_value(layout, row->options, LAYOUT_OPTION);
+    text_add(name, "%s%s|%.17g|%s|%s", row->method, workload, isnan(row->k) ? 0.0 : row->k, options,
+             layout);
 }
 
 static bool agrees(double a, double b)

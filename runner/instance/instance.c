@@ -89,11 +89,9 @@ static void name_slots(fm_instance *instance)
 size_t instance_choices(fm_choice all[FM_MAX_OPTIONS], const fm_instance_desc *desc)
 {
     const fm_device_caps *caps = &desc->stage->device->caps;
-    const fm_layout_case of = { .method = desc->method,
-                                .width_px = desc->stage->scene->width_px,
-                                .height_px = desc->stage->scene->height_px,
-                                .k = desc->settings->k,
-                                .n = desc->stage->n };
+    fm_layout_case of = layout_case(desc->method, desc->settings, desc->stage->n);
+    of.width_px = desc->stage->scene->width_px; /* as it is, whatever settings say */
+    of.height_px = desc->stage->scene->height_px;
     const fm_layout_device device = { .is_software = caps->is_software,
                                       .image_layers = caps->image_layers,
                                       .image_max_bytes = caps->image_max_bytes };

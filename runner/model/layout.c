@@ -14,10 +14,21 @@ typedef struct layout_rule {
 static const layout_rule rules[] = {
     { .is_software = false, .is_bounded = true, .order = { "image", "tile", "layer", "pixel" } },
     { .is_software = false, .is_bounded = false, .order = { "tile", "layer", "pixel", "image" } },
-    { .is_software = true, .is_bounded = true, .order = { "pixel", "tile", "layer", "image" } },
-    { .is_software = true, .is_bounded = false, .order = { "pixel", "tile", "layer", "image" } },
+    { .is_software = true, .is_bounded = true, .order = { "tile", "pixel", "layer", "image" } },
+    { .is_software = true, .is_bounded = false, .order = { "tile", "pixel", "layer", "image" } },
 };
 enum { ORDER_LENGTH = sizeof rules[0].order / sizeof rules[0].order[0] };
+
+fm_layout_case layout_case(const fm_method_desc *method, const fm_settings *settings, uint32_t n)
+{
+    return (fm_layout_case){ .method = method,
+                             .width_px = settings->width_px,
+                             .height_px = settings->height_px,
+                             .k = settings->k,
+                             .n = n,
+                             .needs_buffers = settings->culling == FM_CULLING_OCCUPANCY &&
+                                              settings->cull_memory == FM_CULL_MEMORY_SHARED };
+}
 
 bool layout_is_open(const fm_choice *choice)
 {
@@ -51,8 +62,8 @@ static bool fits(const asked_choices *asked, const fm_layout_case *of,
     method_choose(&chosen, asked->method, asked->choices, asked->count);
     for (size_t i = 0; i < resource_count(&chosen); i++) {
         const fm_resource *resource = &chosen.resources[i];
-        if (resource->kind == FM_RESOURCE_IMAGE &&
-            (formula_layers(resource, &workload) > device->image_layers ||
+        if (resource->kind == FM_RESOURCE_IMAGE && resource->when_option != NULL &&
+            (of->needs_buffers || formula_layers(resource, &workload) > device->image_layers ||
              formula_image_bytes(resource, &workload) > device->image_max_bytes))
             return false;
     }

@@ -7,6 +7,7 @@
 #define FM_LAYOUT_H
 
 #include "model/descriptor.h"
+#include "model/settings.h"
 
 #define LAYOUT_OPTION "layout"
 #define LAYOUT_AUTO   "auto"
@@ -22,12 +23,15 @@ typedef struct fm_layout_device {
 typedef struct fm_layout_case {
     const fm_method_desc *method;
     uint32_t width_px, height_px, k, n; /* n 0: not known before a device has counted */
+    bool needs_buffers; /* culling's map is to lie in the memory of one: no images */
 } fm_layout_case;
 
 /* All of the method's options, each with what is given or its first value, the layout worked out.
  * Returns how many they are. */
 size_t layout_choices(fm_choice all[FM_MAX_OPTIONS], const fm_choice *given, size_t given_count,
                       const fm_layout_case *of, const fm_layout_device *device);
+/* The case with these settings. */
+fm_layout_case layout_case(const fm_method_desc *method, const fm_settings *settings, uint32_t n);
 /* Whether this choice is one that layout_resolve works out. */
 bool layout_is_open(const fm_choice *choice);
 /* Replaces the value of an open choice among choices[count], which are all of the method's options,

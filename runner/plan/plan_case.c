@@ -164,10 +164,7 @@ static bool know_device(const fm_plan_point *point)
 
 static void work_out_layout(fm_case *made, const fm_plan_point *point)
 {
-    const fm_layout_case of = { .method = point->entry->plugin->method,
-                                .width_px = made->settings.width_px,
-                                .height_px = made->settings.height_px,
-                                .k = made->settings.k };
+    const fm_layout_case of = layout_case(point->entry->plugin->method, &made->settings, 0);
     for (size_t i = 0; i < made->choice_count; i++)
         made->has_auto_layout |= layout_is_open(&made->choices[i]);
     if (made->has_auto_layout && know_device(point))

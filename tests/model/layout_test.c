@@ -106,6 +106,26 @@ static void an_image_that_a_device_lacks_is_not_taken(void **state)
     assert_string_equal(resolved(&method, 65, &device), "tile");
 }
 
+/* No buffer lies in an image's memory. */
+static void a_shared_map_keeps_arrays_in_buffers(void **state)
+{
+    (void)state;
+    const fm_method_desc method = make_method(FM_TRAIT_BOUNDED);
+    fm_choice choices[FM_MAX_OPTIONS];
+    fm_settings settings;
+    settings_default(&settings);
+    settings.width_px = 3;
+    settings.height_px = 2;
+    fm_layout_case of = layout_case(&method, &settings, 0);
+    layout_choices(choices, NULL, 0, &of, &gpu);
+    assert_string_equal(choices[0].value, "image");
+    settings.culling = FM_CULLING_OCCUPANCY;
+    settings.cull_memory = FM_CULL_MEMORY_SHARED;
+    of = layout_case(&method, &settings, 0);
+    layout_choices(choices, NULL, 0, &of, &gpu);
+    assert_string_equal(choices[0].value, "tile");
+}
+
 static void a_method_has_only_its_own_layouts(void **state)
 {
     (void)state;
@@ -136,6 +156,7 @@ int main(void)
         cmocka_unit_test(without_choices_the_first_value_counts),
         cmocka_unit_test(a_gpu_takes_images_for_what_is_bounded),
         cmocka_unit_test(an_image_that_a_device_lacks_is_not_taken),
+        cmocka_unit_test(a_shared_map_keeps_arrays_in_buffers),
         cmocka_unit_test(a_method_has_only_its_own_layouts),
         cmocka_unit_test(a_layout_that_was_chosen_stays),
     };

@@ -1,4 +1,4 @@
-/* Looking at a plan's meshes, with a shell script in a worker's place. */
+/* What a plan has workers look at, with a shell script in a worker's place. */
 #include <setjmp.h>
 #include <signal.h>
 #include <stdarg.h>
@@ -94,9 +94,39 @@ static void signal_ends_the_look_and_is_told(void **state)
     fake_close(&fake);
 }
 
+/* What the worker answers of the device, or why it has none. */
+static void a_device_is_looked_at_by_a_worker(void **state)
+{
+    (void)state;
+    static const char *const ids[] = { "a", NULL };
+    static const char script[] =
+        "#!/bin/sh\n"
+        "case $(cat \"$2\") in\n"
+        "*vulkan:7*) echo '{\"status\":\"skipped\",\"is_runs_fault\":true,\"message\":\"no such "
+        "device\"}' >\"$3\" ;;\n"
+        "*'\"device\"'*) echo '{\"status\":\"ok\",\"message\":\"\",\"device_name\":\"A GPU\","
+        "\"is_software\":false,\"image_layers\":2048,\"image_max_bytes\":4096}' >\"$3\" ;;\n"
+        "esac\n";
+    fake_plan fake;
+    fm_layout_device device;
+    fm_error err = { .message = "" };
+    fake_open(&fake, ids, 1);
+    fake_write(&fake, "worker.sh", script, "w");
+    assert_int_equal(chmod(fake.worker, 0755), 0);
+    if (device_look(&device, fake.worker, "vulkan", &err) != FM_OK)
+        fail_msg("%s", err.message);
+    assert_false(device.is_software);
+    assert_int_equal(device.image_layers, 2048);
+    assert_int_equal(device.image_max_bytes, 4096);
+    assert_int_equal(device_look(&device, fake.worker, "vulkan:7", &err), FM_IO);
+    assert_string_equal(err.message, "no such device");
+    fake_close(&fake);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_device_is_looked_at_by_a_worker),
         cmocka_unit_test(each_mesh_is_looked_at_once_and_may_crash),
         cmocka_unit_test(signal_ends_the_look_and_is_told),
     };
