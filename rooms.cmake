@@ -1,9 +1,10 @@
 # The rooms of fragmark, in order: each may use only rooms that stand before it in its list.
 # tests/rooms_test.sh holds the objects' symbols and the #include lines against this order.
-set(FM_RUNNER_ROOMS base decide image process code model mesh scene generators truth plugin describe device vulkan
-  osmesa dummy simulator stage instance capture worker plan results parent child bundle merge pack ab cli inspect
+set(FM_RUNNER_ROOMS base decide image process code cache model mesh scene generators truth plugin describe bound spirv device
+  glsl vulkan osmesa dummy simulator stage instance capture calibrate worker plan results parent child program bundle merge pack ab
+  cli inspect
   share nightly regress)
-set(FM_REPORT_ROOMS base decide image model read claims tradeoff stability compare baseline history night draw page)
+set(FM_REPORT_ROOMS base decide image model read claims tradeoff stability compare baseline history night draw roofline page)
 
 # fm_add_room(NAME SOURCES file... [ROOMS room...] [LIBRARIES target...]): the static library
 # fm_NAME of one room, which links the rooms below it that it uses. Includes name a room's folder

@@ -10,6 +10,7 @@
 #include "compare/comparison.h"
 #include "model/exit_code.h"
 #include "page/comparison_page.h"
+#include "print_text.h"
 #include "results_folder.h"
 
 typedef struct compare_arguments {
@@ -218,14 +219,7 @@ static fm_status print(const compare_arguments *given, const fm_comparison *comp
         status = comparison_add_json(&text, comparison, err);
     else
         comparison_add_lines(&text, comparison);
-    if (status == FM_OK && text.failed)
-        status = fm_fail(err, FM_NO_MEMORY, "no memory for %zu cases", comparison->count);
-    if (status == FM_OK)
-        fwrite(text.bytes, 1, text.length, stdout);
-    if (status == FM_OK && (fflush(stdout) != 0 || ferror(stdout)))
-        status = fm_fail(err, FM_IO, "what it printed could not be written");
-    text_free(&text);
-    return status;
+    return print_text(&text, status, err);
 }
 
 static int compare(const compare_arguments *given, fm_result_files *const runs[2], fm_error *err)

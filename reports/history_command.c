@@ -10,6 +10,7 @@
 #include "history/series.h"
 #include "model/exit_code.h"
 #include "page/history_page.h"
+#include "print_text.h"
 #include "results_folder.h"
 
 typedef enum history_action {
@@ -218,18 +219,6 @@ static int add(fm_history *history, const history_arguments *given, fm_error *er
     return code;
 }
 
-static fm_status print(fm_text *text, fm_status status, fm_error *err)
-{
-    if (status == FM_OK && text->failed)
-        status = fm_fail(err, FM_NO_MEMORY, "no memory for what is printed");
-    if (status == FM_OK && text->length > 0)
-        fwrite(text->bytes, 1, text->length, stdout);
-    if (status == FM_OK && (fflush(stdout) != 0 || ferror(stdout)))
-        status = fm_fail(err, FM_IO, "what it printed could not be written");
-    text_free(text);
-    return status;
-}
-
 static fm_status list(fm_history *history, const history_arguments *given, fm_error *err)
 {
     fm_text text = { 0 };
@@ -240,7 +229,7 @@ static fm_status list(fm_history *history, const history_arguments *given, fm_er
     else if (status == FM_OK)
         history_add_runs(&text, &runs);
     history_runs_free(&runs);
-    return print(&text, status, err);
+    return print_text(&text, status, err);
 }
 
 static fm_status show(fm_history *history, const history_arguments *given, fm_error *err)
@@ -253,7 +242,7 @@ static fm_status show(fm_history *history, const history_arguments *given, fm_er
     else if (status == FM_OK)
         history_add_series(&text, &series, given->series.reference);
     history_series_free(&series);
-    return print(&text, status, err);
+    return print_text(&text, status, err);
 }
 
 static fm_status page(fm_history *history, const history_arguments *given, fm_error *err)

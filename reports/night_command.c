@@ -10,12 +10,13 @@
 #include "history/record.h"
 #include "history/runs.h"
 #include "model/exit_code.h"
+#include "night/gate.h"
 #include "night/night.h"
 #include "page/history_page.h"
 #include "results_folder.h"
 
 typedef struct night_arguments {
-    const char *run, *state, *output, *baseline, *reference;
+    const char *run, *state, *output, *baseline, *reference, *gate, *unconfirmed;
     double effect;
     fm_text_list notes;
 } night_arguments;
@@ -24,12 +25,13 @@ typedef struct night_arguments {
 typedef struct session {
     night_arguments *given;
     fm_result_files *now, *baseline;
+    fm_gate_answers answers; /* of the gate, if there is one */
     fm_history *history;
     char history_path[FM_PATH_MAX_BYTES], baseline_path[FM_PATH_MAX_BYTES];
     fm_error *err;
 } session;
 
-enum { KEY_STATE = 512, KEY_BASELINE, KEY_EFFECT, KEY_NOTE };
+enum { KEY_STATE = 512, KEY_BASELINE, KEY_EFFECT, KEY_NOTE, KEY_GATE, KEY_UNCONFIRMED };
 
 static error_t parse(int key, char *value, struct argp_state *state)
 {
@@ -50,6 +52,12 @@ static error_t parse(int key, char *value, struct argp_state *state)
     case KEY_EFFECT:
         if (!text_to_double(&given->effect, value) || given->effect <= 1)
             argp_error(state, "--effect %.40s: a factor above 1, such as 1.06", value);
+        return 0;
+    case KEY_GATE:
+        given->gate = value;
+        return 0;
+    case KEY_UNCONFIRMED:
+        given->unconfirmed = value;
         return 0;
     case KEY_NOTE:
         return text_list_add(&given->notes, value) ? 0 : ENOMEM;
@@ -77,6 +85,13 @@ static const struct argp_option options[] = {
     { "reference", 'r', "METHOD|floor", 0, "over what frame_ms is taken; floor", 0 },
     { "effect", KEY_EFFECT, "FACTOR", 0,
       "how many launches a night find a step of this factor is told; 1.06", 0 },
+    { "gate", KEY_GATE, "FILE", 0,
+      "ab.csv of a `fragmark gate` of these cases: findings on time that it does not call worse "
+      "are "
+      "dismissed; without it they stand",
+      0 },
+    { "unconfirmed", KEY_UNCONFIRMED, "TEXT", 0,
+      "a sentence for the summary if a finding on time is not confirmed: why", 0 },
     { "note", KEY_NOTE, "TEXT", 0, "a sentence for the summary; repeatable", 0 },
     { 0 },
 };
@@ -89,7 +104,8 @@ static const struct argp argp = {
            "this after it has measured; with results that were measured otherwise it can be done "
            "alone.\v"
            "Examples:\n"
-           "  fragmark-report night out/tonight -o out/tonight-said\n\n"
+           "  fragmark-report night out/tonight -o out/tonight-said\n"
+           "  fragmark-report night out/tonight -o out/tonight-said --gate out/gate/ab.csv\n\n"
            "Exit codes: 0 quiet; 1 alarm; 2 wrong use, or a reference that the history does not "
            "have; 4 cases failed, and nothing says that they did before; 5 something cannot be "
            "written; 8 a damaged or foreign history, baseline, or results.",
@@ -179,8 +195,6 @@ static fm_status write_files(const session *with, const fm_night_result *night)
 static int judge(session *with)
 {
     fm_night_result night = { 0 };
-    /* confirm stays NULL: nothing measures here. A gate that confirms findings on fresh launches
-     * is handed in here. */
     const fm_night_desc desc = { .history = with->history,
                                  .now = with->now,
                                  .baseline = with->baseline,
@@ -188,6 +202,9 @@ static int judge(session *with)
                                      with->baseline != NULL ? with->given->baseline : NULL,
                                  .reference = with->given->reference,
                                  .effect = with->given->effect,
+                                 .confirm = with->given->gate != NULL ? gate_confirm : NULL,
+                                 .context = &with->answers,
+                                 .unconfirmed = with->given->unconfirmed,
                                  .notes = &with->given->notes };
     fm_status status = night_judge(&night, &desc, with->err);
     if (status == FM_OK)
@@ -195,7 +212,8 @@ static int judge(session *with)
     int code = results_exit_code(status);
     if (status == FM_OK) {
         for (size_t i = 0; i < night.count; i++)
-            printf("%s: %s: %s\n", finding_kind_name(night.findings[i].kind),
+            printf("%s%s: %s: %s\n", finding_kind_name(night.findings[i].kind),
+                   finding_standing(&night.findings[i]),
                    with->now->cases[night.findings[i].case_index].id, night.findings[i].text);
         printf("%s/summary.md\n", with->given->output);
         code = night.alarms > 0         ? FM_EXIT_CLAIM_FAILS
@@ -222,6 +240,8 @@ static int run(session *with)
     if (status != FM_OK)
         return status == FM_IO ? FM_EXIT_INCOMPLETE : FM_EXIT_USAGE;
     status = open_baseline(with);
+    if (status == FM_OK && given->gate != NULL)
+        status = gate_answers_open(&with->answers, given->gate, with->err);
     if (status == FM_OK)
         status = record(with);
     return status == FM_OK ? judge(with) : results_exit_code(status);
@@ -235,6 +255,7 @@ int night_main(int argc, char **argv)
     argp_err_exit_status = FM_EXIT_USAGE;
     argp_parse(&argp, argc, argv, 0, NULL, &given);
     const int code = run(&with);
+    gate_answers_close(&with.answers);
     history_close(with.history);
     result_files_close(with.baseline);
     result_files_close(with.now);

@@ -9,6 +9,7 @@
 #include "devices.h"
 #include "inspect/dump.h"
 #include "nightly/nightly.h"
+#include "program/handshake.h"
 #include "regress/commands.h"
 #include "share/share.h"
 #include "worker/worker.h"
@@ -111,6 +112,8 @@ int main(int argc, char **argv)
         return worker_main(argv[2], argv[3], &program_devices);
     if (strcmp(name, "describe") == 0 && argc >= 4)
         return describe_main(argv[2], argv + 3);
+    if (strcmp(name, "protocol") == 0 && argc == 3)
+        return handshake_main(argv[2]);
     if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0 || strcmp(name, "help") == 0) {
         write_help(stdout);
         return CLI_DONE;

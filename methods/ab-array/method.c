@@ -11,9 +11,13 @@ const fm_method_desc fm_method = {
     .keeps = FM_KEEPS_ALL,
     .family = FM_FAMILY_A_BUFFER,
     .marker = FM_MARKER_SQUARE,
-    .options = { { .name = "layout", .values = { "auto", "pixel", "layer", "tile", "image" },
-                   .help = "side by side: a pixel's, the i-th of all pixels, or of a tile; image: a "
-                           "layer each; auto: the fastest of them on the device" } },
+    .options = {
+        { .name = "layout", .values = { "auto", "pixel", "layer", "tile", "image" },
+          .help = "side by side: a pixel's, the i-th of all pixels, or of a tile; image: a "
+                           "layer each; auto: the fastest of them on the device" },
+        { .name = "sort", .values = { "shell", "registers", "blocks" },
+          .help = "in resolve: in a private array, up to 32 in registers, or in blocks of 32" },
+    },
     .resources = {
         { .name = "counters", .extent = { .per_pixel = 1 }, .used = { .per_pixel = 1 } },
         { .name = "fragments", .element = FM_ELEMENT_UVEC2, .extent = { .per_pixel_n = 1 },

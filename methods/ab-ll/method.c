@@ -13,6 +13,10 @@ const fm_method_desc fm_method = {
     .keeps = FM_KEEPS_ALL,
     .family = FM_FAMILY_LINKED_LIST,
     .marker = FM_MARKER_CIRCLE,
+    .options = {
+        { .name = "sort", .values = { "shell", "registers", "blocks" },
+          .help = "in resolve: in a private array, up to 32 in registers, or in blocks of 32" },
+    },
     .resources = {
         { .name = "heads", .extent = { .per_pixel = 1 }, .used = { .per_pixel = 1 } },
         { .name = "allocated", .extent = { .constant = 2 } }, /* words taken; words without room */

@@ -1,22 +1,17 @@
 // Merge sort of a list by its links: any number of nodes, no memory but theirs, n log n in any order.
-// An invocation has its lists for itself. Node as in node.glsl, which is included before.
-
-uint next_of(uint link)
-{
-    return nodes[link + 1u];
-}
+// An invocation has its lists for itself. Nodes as in nodes.glsl, which is included before.
 
 // Two sorted lists as one. Who comes before whom if depths are equal: the older list's.
 uint merge_links(uint older, uint newer)
 {
     uint first = END_OF_LIST, last = END_OF_LIST;
     FM_LOOP while (older != END_OF_LIST && newer != END_OF_LIST) {
-        bool takes_older = nodes[older - 1u] <= nodes[newer - 1u];
+        bool takes_older = depth_bits_of(older) <= depth_bits_of(newer);
         uint taken = takes_older ? older : newer;
         if (first == END_OF_LIST)
             first = taken;
         else
-            nodes[last + 1u] = taken;
+            set_next(last, taken);
         last = taken;
         older = takes_older ? next_of(older) : older;
         newer = takes_older ? newer : next_of(newer);
@@ -24,7 +19,7 @@ uint merge_links(uint older, uint newer)
     uint rest = older != END_OF_LIST ? older : newer;
     if (first == END_OF_LIST)
         return rest;
-    nodes[last + 1u] = rest;
+    set_next(last, rest);
     return first;
 }
 
@@ -37,7 +32,7 @@ uint sort_links(uint link)
     FM_LOOP while (link != END_OF_LIST) {
         uint merged = link, bit = 0u;
         link = next_of(link);
-        nodes[merged + 1u] = END_OF_LIST;
+        set_next(merged, END_OF_LIST);
         FM_LOOP for (; (count >> bit & 1u) != 0u; ++bit)
             merged = merge_links(pending[bit], merged);
         pending[bit] = merged;

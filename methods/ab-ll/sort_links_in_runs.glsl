@@ -1,6 +1,6 @@
 // Radix sort of a list by its links, in runs of a pass (FM_RESUMES): a bit of the depth after the other, from
 // the lowest. A bit deals the nodes to two lists in the order they come, and joins them. Between runs
-// nothing but the list has to be kept. Node as in node.glsl, which is included before.
+// nothing but the list has to be kept. Nodes as in nodes.glsl, which is included before.
 //
 // Loops take sixteen nodes a turn: the device counts turns.
 #define FOUR_TIMES(x)    x x x x
@@ -22,10 +22,10 @@ uvec2 first_dealt, last_dealt; // with a 0 and with a 1
 // The node goes behind its list; returns the one that came after it.
 uint deal_node(uint link, uint bit)
 {
-    bool is_one = (nodes[link - 1u] >> bit & 1u) != 0u;
-    uint last = is_one ? last_dealt.y : last_dealt.x, next = nodes[link + 1u];
+    bool is_one = (depth_bits_of(link) >> bit & 1u) != 0u;
+    uint last = is_one ? last_dealt.y : last_dealt.x, next = next_of(link);
     if (last != END_OF_LIST)
-        nodes[last + 1u] = link;
+        set_next(last, link);
     else
         first_dealt = is_one ? uvec2(first_dealt.x, link) : uvec2(link, first_dealt.y);
     last_dealt = is_one ? uvec2(last_dealt.x, link) : uvec2(link, last_dealt.y);
@@ -40,16 +40,16 @@ uint deal_list(uint link, uint bit)
         SIXTEEN_TIMES(if (link != END_OF_LIST) link = deal_node(link, bit);)
     }
     if (last_dealt.y != END_OF_LIST)
-        nodes[last_dealt.y + 1u] = END_OF_LIST;
+        set_next(last_dealt.y, END_OF_LIST);
     if (last_dealt.x != END_OF_LIST)
-        nodes[last_dealt.x + 1u] = first_dealt.y;
+        set_next(last_dealt.x, first_dealt.y);
     return last_dealt.x != END_OF_LIST ? first_dealt.x : first_dealt.y;
 }
 
-uint emit_node(uvec2 pixel, uint link, uint rank)
+uint emit_and_next(uvec2 pixel, uint link, uint rank)
 {
-    fm_emit(pixel, int(rank), uintBitsToFloat(nodes[link - 1u]), nodes[link]);
-    return nodes[link + 1u];
+    emit_node(pixel, link, rank);
+    return next_of(link);
 }
 
 // The runs sort, and the last one emits, from `rank` on; the rank behind the last.
@@ -66,7 +66,7 @@ uint resolve_list(uvec2 pixel, uint list, uint rank)
     }
     FM_LOOP while (link != END_OF_LIST && rank < uint(LIST_MOST)) {
         SIXTEEN_TIMES(if (link != END_OF_LIST && rank < uint(LIST_MOST))
-                          link = emit_node(pixel, link, rank++);)
+                          link = emit_and_next(pixel, link, rank++);)
     }
     return rank;
 }

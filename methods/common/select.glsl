@@ -1,32 +1,13 @@
-// The k nearest of a pixel's fragments, as the k+-buffer paper selects them from an A-buffer: K-1 in any
-// order and the farthest of all in the last slot; what is not nearer than that one is passed over.
-#define SORT_CAPACITY K
-#include "common/sort.glsl"
-
-uint selected = 0u;
-
-void select_nearest(uvec2 fragment)
-{
-    if (selected + 1u < K) {
-        sorted[selected++] = fragment;
-        return;
-    }
-    if (selected == K && fragment.x >= sorted[K - 1u].x)
-        return;
-    uint farthest = K - 1u; // O(k): the new one takes the last slot, then the farthest does
-    uvec2 last = fragment;
-    FM_LOOP for (uint i = 0u; i + 1u < K; ++i) {
-        bool is_farther = sorted[i].x > last.x;
-        farthest = is_farther ? i : farthest;
-        last = is_farther ? sorted[i] : last;
-    }
-    sorted[farthest] = fragment;
-    sorted[K - 1u] = last;
-    selected = K;
-}
-
-void emit_selected(uvec2 pixel)
-{
-    sort_fragments(selected);
-    emit_sorted(pixel, selected);
-}
+// The k nearest of a pixel's fragments, in one pass over them: select_none(), select_nearest() for each of them,
+// emit_selected(). The method's option select says how the k nearest so far are kept:
+//   registers  in order, in registers; where k is beyond what an invocation has of them, as heap
+//   heap       as a max-heap, in a private array
+//   farthest   as the k+-buffer paper has it
+#define SELECT_REGISTERS_MAX 64
+#if SELECT == SELECT_FARTHEST
+#include "common/select_farthest.glsl"
+#elif SELECT == SELECT_REGISTERS && K <= SELECT_REGISTERS_MAX
+#include "common/select_in_registers.glsl"
+#else
+#include "common/select_by_heap.glsl"
+#endif

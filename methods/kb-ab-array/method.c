@@ -12,9 +12,13 @@ const fm_method_desc fm_method = {
     .family = FM_FAMILY_K_BUFFER,
     .marker = FM_MARKER_SQUARE,
     .dashed = true,
-    .options = { { .name = "layout", .values = { "auto", "pixel", "layer", "tile", "image" },
-                   .help = "side by side: a pixel's, the i-th of all pixels, or of a tile; image: a "
-                           "layer each; auto: the fastest of them on the device" } },
+    .options = {
+        { .name = "layout", .values = { "auto", "pixel", "layer", "tile", "image" },
+          .help = "side by side: a pixel's, the i-th of all pixels, or of a tile; image: a "
+                           "layer each; auto: the fastest of them on the device" },
+        { .name = "select", .values = { "registers", "heap", "farthest" },
+          .help = "the k nearest so far: in order, as a heap, or as the paper's farthest one" },
+    },
     .resources = {
         { .name = "counters", .extent = { .per_pixel = 1 }, .used = { .per_pixel = 1 } },
         { .name = "fragments", .element = FM_ELEMENT_UVEC2, .extent = { .per_pixel_n = 1 },

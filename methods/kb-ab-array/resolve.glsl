@@ -14,6 +14,7 @@ void resolve(uvec2 pixel)
 void resolve(uvec2 pixel)
 {
     uint count = min(counters[fm_pixel_index(pixel)], N);
+    select_none();
     FM_LOOP for (uint i = 0u; i < count; ++i)
         select_nearest(kept_at(pixel, i));
     emit_selected(pixel);

@@ -9,12 +9,16 @@ const fm_method_desc fm_method = {
     .title = "KB-AB-LL",
     .citation = "Yu, Yang, Hensley, Harada, Yu 2012, A framework for rendering complex "
                 "scattering effects on hair, I3D; store: Yang 2010",
-    .version = "1",
+    .version = "2",
     .traits = FM_TRAIT_EXACT | FM_TRAIT_SORTS_IN_RESOLVE,
     .keeps = FM_KEEPS_K_NEAREST,
     .family = FM_FAMILY_K_BUFFER,
     .marker = FM_MARKER_CIRCLE,
     .dashed = true,
+    .options = {
+        { .name = "select", .values = { "registers", "heap", "farthest" },
+          .help = "the k nearest so far: in order, as a heap, or as the paper's farthest one" },
+    },
     .resources = {
         { .name = "heads", .extent = { .per_pixel = 1 }, .used = { .per_pixel = 1 } },
         { .name = "allocated", .extent = { .constant = 2 } }, /* words taken; words without room */

@@ -1,4 +1,4 @@
-#include "ab-ll/node.glsl"
+#include "ab-ll/nodes.glsl"
 #if FM_RESUMES // all of the list sorted, in runs; then its first k
 #define LIST_MOST K
 #include "ab-ll/sort_links_in_runs.glsl"
@@ -13,9 +13,10 @@ void resolve(uvec2 pixel)
 void resolve(uvec2 pixel)
 {
     uint link = heads[fm_pixel_index(pixel)];
+    select_none();
     FM_LOOP for (uint count = 0u; link != END_OF_LIST && count < N; ++count) {
-        select_nearest(uvec2(nodes[link - 1u], nodes[link]));
-        link = nodes[link + 1u];
+        select_nearest(fragment_of(link));
+        link = next_of(link);
     }
     emit_selected(pixel);
 }

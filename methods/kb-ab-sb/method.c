@@ -7,7 +7,7 @@ const fm_method_desc fm_method = {
     .title = "KB-AB-SB",
     .citation = "Vasilakis, Fudos 2014, k+-buffer, doi:10.1145/2556700.2556702; store: "
                 "Vasilakis, Fudos 2012",
-    .version = "1",
+    .version = "2",
     .traits = FM_TRAIT_EXACT | FM_TRAIT_SORTS_IN_RESOLVE | FM_TRAIT_EMITS_EITHER,
     .keeps = FM_KEEPS_K_NEAREST,
     .family = FM_FAMILY_K_BUFFER,
@@ -16,10 +16,12 @@ const fm_method_desc fm_method = {
     .options = {
         { .name = "counters", .values = { "32", "1", "2", "10", "30", "50", "256", "1024" },
           .help = "S, how many counters all pixels share" },
-        { .name = "hash", .values = { "paper", "tiled" },
-          .help = "pixel to counter: by number, (x + W y) mod S, or by tiles of 256 x 96" },
+        { .name = "hash", .values = { "tiled", "paper" },
+          .help = "pixel to counter: by tiles of 256 x 96, or by number, (x + W y) mod S" },
         { .name = "mapping", .values = { "forward", "inverse" },
           .help = "all counters from the pool's front, or half of them from its end" },
+        { .name = "select", .values = { "registers", "heap", "farthest" },
+          .help = "the k nearest so far: in order, as a heap, or as the paper's farthest one" },
     },
     .resources = {
         { .name = "counters", .extent = { .per_pixel = 1 }, .used = { .per_pixel = 1 } },

@@ -1,22 +1,26 @@
-#if FM_RESUMES
+#if !FM_RESUMES
+#define PLACES_READ_ONLY
+#endif
 #include "s-buffer/places.glsl"
+#if FM_RESUMES
 #include "common/select_in_runs.glsl"
 
 void resolve(uvec2 pixel)
 {
-    emit_nearest(pixel, min(counters[fm_pixel_index(pixel)], N));
+    uint count = min(counters[fm_pixel_index(pixel)], N);
+    find_places(pixel, count);
+    emit_nearest(pixel, count);
 }
 #else
-#include "s-buffer/place.glsl"
 #include "common/select.glsl"
 
-// The store left the address behind the pixel's last fragment.
 void resolve(uvec2 pixel)
 {
-    uint i = fm_pixel_index(pixel);
-    uint count = min(counters[i], N), end = count > 0u ? addresses[i] : 0u;
-    FM_LOOP for (uint back = 0u; back < count; ++back)
-        select_nearest(fragments[bin_place(pixel, end - 1u - back)]);
+    uint count = min(counters[fm_pixel_index(pixel)], N);
+    find_places(pixel, count);
+    select_none();
+    FM_LOOP for (uint i = 0u; i < count; ++i)
+        select_nearest(fragment_at(pixel, i));
     emit_selected(pixel);
 }
 #endif

@@ -2,8 +2,10 @@
 //   exact      the float's bits
 //   published  uint((z - near) / far * (2^32 - 1)) in float arithmetic, as the k+-buffer paper's code: the
 //              division merges some neighbouring floats, and what lies before `near` becomes 0
+// A method without this option has the float's bits.
 #include "common/array.glsl"
 
+#define KEY uint
 const uint EMPTY = 0xFFFFFFFFu;
 
 uint key_at(uvec2 pixel, uint i)
@@ -15,39 +17,8 @@ uint key_at(uvec2 pixel, uint i)
 #endif
 }
 
-#ifdef FM_WRITES_KEYS
-void put_key(uvec2 pixel, uint i, uint key)
-{
-#if ARRAY_IS_IMAGE
-    fm_store_keys(pixel, i, uvec4(key, 0u, 0u, 0u));
-#else
-    keys[array_slot(pixel, i, K)] = key;
-#endif
-}
-
-// Leaves the nearer of two keys in the slot; the answer is what was there.
-uint keep_nearer(uvec2 pixel, uint i, uint key)
-{
-#if ARRAY_IS_IMAGE
-    return imageAtomicMin(fm_image_keys, ivec3(pixel, i), key);
-#else
-    return atomicMin(keys[array_slot(pixel, i, K)], key);
-#endif
-}
-#endif
-
-#ifdef FM_WRITES_COLOURS
-void put_colour(uvec2 pixel, uint i, uint colour)
-{
-#if ARRAY_IS_IMAGE
-    fm_store_colours(pixel, i, uvec4(colour, 0u, 0u, 0u));
-#else
-    colours[array_slot(pixel, i, K)] = colour;
-#endif
-}
-#endif
-
-#if DEPTH_BITS == DEPTH_BITS_PUBLISHED
+#if defined(DEPTH_BITS_PUBLISHED) && DEPTH_BITS == DEPTH_BITS_PUBLISHED
+#define EQUAL_DEPTHS_MERGE 0
 const float NEAR = 0.001, FAR = 50.0, SCALE = 4294967295.0; // its planes unless fitted to the scene
 
 // Every pass must find the same key, so no compiler may round otherwise in one of them: precise. At
@@ -68,6 +39,7 @@ float depth_of(uint key)
     return uintBitsToFloat(bits);
 }
 #else
+#define EQUAL_DEPTHS_MERGE 1 // of equal depths one is kept, and every slot gets a colour
 uint key_of(float depth)
 {
     return fm_pack(depth, 0u).x;

@@ -16,7 +16,9 @@ const fm_method_desc fm_method = {
                    .help = "the float's bits, or the k+-buffer paper's quantisation" },
                  { .name = "layout", .values = { "auto", "pixel", "layer", "tile", "image" },
                    .help = "side by side: a pixel's, the i-th of all pixels, or of a tile; image: a "
-                           "layer each; auto: the fastest of them on the device" } },
+                           "layer each; auto: the fastest of them on the device" },
+                 { .name = "start", .values = { "auto", "front", "half", "binary" },
+                   .help = "slot that a chain begins at: the first, by a look at k/2, searched" } },
     .resources = {
         { .name = "keys", .extent = { .per_pixel_k = 1 }, .used = { .per_kept = 1 } },
         { .name = "keys", .kind = FM_RESOURCE_IMAGE, .format = FM_FORMAT_R32UI,

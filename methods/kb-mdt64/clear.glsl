@@ -1,7 +1,7 @@
-#include "kb-mdt64/key.glsl"
+#include "kb-mdt64/sink.glsl"
 
 void clear(uvec2 pixel)
 {
     FM_LOOP for (uint i = 0u; i < K; ++i)
-        keys[array_slot(pixel, i, K)] = EMPTY;
+        put_key(pixel, i, EMPTY);
 }

@@ -15,7 +15,9 @@ const fm_method_desc fm_method = {
     .marker = FM_MARKER_DIAMOND,
     .options = { { .name = "layout", .values = { "auto", "pixel", "layer", "tile" },
                    .help = "side by side: a pixel's, the i-th of all pixels, or of a tile; auto: "
-                           "the fastest of them on the device" } },
+                           "the fastest of them on the device" },
+                 { .name = "start", .values = { "auto", "front", "half", "binary" },
+                   .help = "slot that a chain begins at: the first, by a look at k/2, searched" } },
     .resources = {
         { .name = "keys", .element = FM_ELEMENT_UINT64, .extent = { .per_pixel_k = 1 },
           .used = { .per_kept = 1 } },

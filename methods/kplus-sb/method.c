@@ -6,7 +6,7 @@ const fm_method_desc fm_method = {
     .id = "kplus-sb",
     .title = "K+B-SB",
     .citation = "Vasilakis, Fudos 2014, k+-buffer, doi:10.1145/2556700.2556702",
-    .version = "2",
+    .version = "3",
     .traits = FM_TRAIT_EXACT | FM_TRAIT_SORTS_IN_RESOLVE | FM_TRAIT_EMITS_EITHER,
     .keeps = FM_KEEPS_K_NEAREST,
     .family = FM_FAMILY_K_PLUS_BUFFER,
@@ -14,6 +14,8 @@ const fm_method_desc fm_method = {
     .options = {
         { .name = "counters", .values = { "32", "1", "2", "10", "30", "50", "256", "1024" },
           .help = "S, how many counters all pixels share" },
+        { .name = "hash", .values = { "tiled", "paper" },
+          .help = "pixel to counter: by tiles of 256 x 96, or by number, (x + W y) mod S" },
         { .name = "count", .values = { "tessellated", "flat" },
           .help = "the counting pass as all others, or without tessellation (flat layers)" },
     },

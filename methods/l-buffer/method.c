@@ -13,6 +13,10 @@ const fm_method_desc fm_method = {
     .family = FM_FAMILY_A_BUFFER,
     .marker = FM_MARKER_CROSS,
     .dashed = true,
+    .options = {
+        { .name = "sort", .values = { "shell", "registers", "blocks" },
+          .help = "in resolve: in a private array, up to 32 in registers, or in blocks of 32" },
+    },
     .resources = {
         { .name = "counters", .extent = { .per_pixel = 1 }, .used = { .per_pixel = 1 } },
         { .name = "addresses", .extent = { .per_pixel = 1 }, .used = { .per_pixel = 1 } },

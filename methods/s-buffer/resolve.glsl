@@ -3,5 +3,7 @@
 
 void resolve(uvec2 pixel)
 {
-    resolve_all(pixel, min(counters[fm_pixel_index(pixel)], N));
+    uint count = min(counters[fm_pixel_index(pixel)], N);
+    find_places(pixel, count);
+    resolve_all(pixel, count);
 }

@@ -186,7 +186,7 @@ fm_status baseline_find(char path[FM_PATH_MAX_BYTES], const char *store, const c
                         const fm_provenance *now, fm_error *err)
 {
     fm_baseline_list list;
-    const fm_hardware here = hardware_of(now);
+    const fm_hardware here = provenance_hardware(now);
     const size_t length = strcspn(wanted, "@");
     char *name = strndup(wanted, length);
     path[0] = '\0';

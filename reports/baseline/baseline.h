@@ -6,7 +6,7 @@
  *   STATE/baselines/NAME/FINGERPRINT/manifest.json summary.csv samples.csv journal.jsonl
  *                                    baseline.json  where from, when, and the hash of each file
  *
- * One name may have a run of each machine (compare/hardware.h). */
+ * One name may have a run of each machine (model/hardware.h). */
 #ifndef FM_BASELINE_H
 #define FM_BASELINE_H
 
@@ -14,7 +14,7 @@
 
 #include "base/path.h"
 #include "base/text.h"
-#include "compare/hardware.h"
+#include "model/hardware.h"
 #include "read/result_files.h"
 
 enum { FM_BASELINE_NAME_BYTES = 65 };

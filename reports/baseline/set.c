@@ -11,6 +11,8 @@
 #include "baseline.h"
 #include "files.h"
 
+enum { PARTIALS = 100 };
+
 /* Copies into `to`; *hashes is a new object. */
 static fm_status copy_files(json_t **hashes, const char *to, const char *from, fm_error *err)
 {
@@ -34,7 +36,7 @@ static json_t *describe(const char *name, const char *machine, const fm_result_f
 {
     char now[32] = "", *from = realpath(results->directory, NULL);
     const fm_provenance *manifest = results->manifest;
-    const fm_hardware hardware = hardware_of(manifest);
+    const fm_hardware hardware = provenance_hardware(manifest);
     const time_t seconds = time(NULL);
     struct tm utc;
     if (gmtime_r(&seconds, &utc) != NULL)
@@ -77,6 +79,26 @@ static fm_status fill(const char *folder, const char *name, const char *machine,
     json_decref(description);
     json_decref(hashes);
     return status;
+}
+
+/* A folder that nobody had before: what a killed process left is no part of it. */
+static fm_status make_partial(char made[FM_PATH_MAX_BYTES], const char *folder, fm_error *err)
+{
+    fm_status status = path_make_folders(folder, err);
+    for (unsigned i = 0; i < PARTIALS && status == FM_OK; i++) {
+        char name[48];
+        snprintf(name, sizeof name, ".partial-%ld-%u", (long)getpid(), i);
+        status = path_join(made, folder, name, err);
+        if (status == FM_OK && mkdir(made, 0777) == 0)
+            return FM_OK;
+        if (status == FM_OK && errno != EEXIST)
+            status = fm_fail(err, FM_IO, "%s: %s", made, strerror(errno));
+    }
+    return status == FM_OK ? fm_fail(err, FM_IO,
+                                     "%s: the folders .partial-* are of killed processes: "
+                                     "remove them",
+                                     folder)
+                           : status;
 }
 
 /* The old one, if there is one, is then where the new one was made, and goes with it. Where a disk
@@ -129,9 +151,9 @@ static fm_status check(const char *name, const fm_hardware *hardware,
 fm_status baseline_set(char path[FM_PATH_MAX_BYTES], const char *store, const char *name,
                        const fm_result_files *results, fm_error *err)
 {
-    char folder[FM_PATH_MAX_BYTES], made[FM_PATH_MAX_BYTES], partial[32];
+    char folder[FM_PATH_MAX_BYTES], made[FM_PATH_MAX_BYTES];
     char machine[FM_FINGERPRINT_BYTES];
-    const fm_hardware hardware = hardware_of(results->manifest);
+    const fm_hardware hardware = provenance_hardware(results->manifest);
     fm_status status = check(name, &hardware, results, err);
     if (status == FM_OK)
         status = choose_machine(machine, store, name, &hardware, err);
@@ -139,11 +161,8 @@ fm_status baseline_set(char path[FM_PATH_MAX_BYTES], const char *store, const ch
         status = path_join(folder, store, name, err);
     if (status == FM_OK)
         status = path_join(path, folder, machine, err);
-    snprintf(partial, sizeof partial, ".partial-%ld", (long)getpid());
     if (status == FM_OK)
-        status = path_join(made, folder, partial, err);
-    if (status == FM_OK)
-        status = path_make_folders(made, err);
+        status = make_partial(made, folder, err);
     if (status != FM_OK)
         return status;
     status = fill(made, name, machine, results, err);

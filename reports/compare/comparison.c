@@ -170,6 +170,14 @@ size_t comparison_changed(const fm_comparison *comparison)
     return count;
 }
 
+size_t comparison_exact(const fm_comparison *comparison, fm_exact_verdict verdict)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < comparison->count; i++)
+        count += exact_verdict(&comparison->cases[i].changes) == verdict;
+    return count;
+}
+
 void compared_name(char name[FM_COMPARED_NAME_BYTES], const fm_case_row *row)
 {
     char title[96], k[32] = "", n[32] = "";

@@ -81,4 +81,10 @@ void comparison_add_csv(fm_text *csv, const fm_comparison *comparison);
 /* The same as JSON, with what differs between the runs. FM_NO_MEMORY. */
 fm_status comparison_add_json(fm_text *json, const fm_comparison *comparison, fm_error *err);
 
+/* Both without times: what is exact, with verdicts of it alone (exact_verdict). */
+void comparison_add_exact_csv(fm_text *csv, const fm_comparison *comparison);
+fm_status comparison_add_exact_json(fm_text *json, const fm_comparison *comparison, fm_error *err);
+/* How many cases have this one. */
+size_t comparison_exact(const fm_comparison *comparison, fm_exact_verdict verdict);
+
 #endif

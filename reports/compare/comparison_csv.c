@@ -52,31 +52,40 @@ static const fm_metric shown[] = { FM_METRIC_BYTES_ALLOCATED, FM_METRIC_MISSING,
                                    FM_METRIC_RMSE, FM_METRIC_TOTAL_RMSE };
 enum { SHOWN = sizeof shown / sizeof shown[0] };
 
-static void add_header(fm_text *csv)
+/* judged: the columns between what names a case and what is exact. */
+static void add_header(fm_text *csv, const char *judged)
 {
-    text_add(csv, "method,options,k,n,scene,device,feed,width_px,height_px,case_id_base,"
-                  "case_id_new,status_base,status_new,quantity,base,base_low,base_high,new,new_low,"
-                  "new_high,ratio,ratio_low,ratio_high,verdict,why,");
+    text_add(csv,
+             "method,options,k,n,scene,device,feed,width_px,height_px,case_id_base,"
+             "case_id_new,status_base,status_new,%s",
+             judged);
     for (size_t i = 0; i < SHOWN; i++)
         text_add(csv, "%s_base,%s_new,", fm_metrics[shown[i]].name, fm_metrics[shown[i]].name);
     text_add(csv, "exact,other_code\n");
 }
 
-/* NULL: the case is in one run alone. */
-static void add_row(fm_text *csv, const fm_pair *pair, const fm_compared *compared,
-                    const char *quantity)
+static const char *where(const fm_pair *pair)
+{
+    return pair->base != NULL ? "only in BASE" : "only in NEW";
+}
+
+/* compared NULL: the case is in one run alone. */
+static void add_times(fm_text *csv, const fm_pair *pair, const fm_compared *compared,
+                      const char *quantity)
 {
     static const fm_interval none = { NAN, NAN, NAN };
-    fm_text changes = { 0 };
-    add_case(csv, pair);
     add_text(csv, quantity);
     add_interval(csv, compared != NULL ? &compared->base : &none);
     add_interval(csv, compared != NULL ? &compared->now : &none);
     add_interval(csv, compared != NULL ? &compared->ratio : &none);
     add_text(csv, compared != NULL ? compared_verdict_name(compared->verdict) : "");
-    add_text(csv, compared != NULL     ? compared->why
-                  : pair->base != NULL ? "only in BASE"
-                                       : "only in NEW");
+    add_text(csv, compared != NULL ? compared->why : where(pair));
+}
+
+/* The same. */
+static void add_exact(fm_text *csv, const fm_pair *pair, const fm_compared *compared)
+{
+    fm_text changes = { 0 };
     for (size_t i = 0; i < SHOWN; i++)
         add_numbers(csv, pair, shown[i]);
     if (compared != NULL)
@@ -88,14 +97,39 @@ static void add_row(fm_text *csv, const fm_pair *pair, const fm_compared *compar
     text_free(&changes);
 }
 
-void comparison_add_csv(fm_text *csv, const fm_comparison *comparison)
+/* quantity NULL: no times. */
+static void add_row(fm_text *csv, const fm_pair *pair, const fm_compared *compared,
+                    const char *quantity)
 {
-    char quantity[128];
-    quantity_title(quantity, &comparison->quantity);
-    add_header(csv);
+    add_case(csv, pair);
+    if (quantity != NULL)
+        add_times(csv, pair, compared, quantity);
+    else
+        add_text(csv, compared != NULL ? exact_verdict_name(exact_verdict(&compared->changes))
+                                       : where(pair));
+    add_exact(csv, pair, compared);
+}
+
+static void add_rows(fm_text *csv, const fm_comparison *comparison, const char *quantity)
+{
     for (size_t i = 0; i < comparison->count; i++)
         add_row(csv, &comparison->cases[i].pair, &comparison->cases[i], quantity);
     for (size_t i = 0; i < comparison->pairs.count; i++)
         if (comparison->pairs.items[i].base == NULL || comparison->pairs.items[i].now == NULL)
             add_row(csv, &comparison->pairs.items[i], NULL, quantity);
+}
+
+void comparison_add_csv(fm_text *csv, const fm_comparison *comparison)
+{
+    char quantity[128];
+    quantity_title(quantity, &comparison->quantity);
+    add_header(csv, "quantity,base,base_low,base_high,new,new_low,new_high,ratio,ratio_low,"
+                    "ratio_high,verdict,why,");
+    add_rows(csv, comparison, quantity);
+}
+
+void comparison_add_exact_csv(fm_text *csv, const fm_comparison *comparison)
+{
+    add_header(csv, "verdict,");
+    add_rows(csv, comparison, NULL);
 }

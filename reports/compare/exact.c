@@ -181,6 +181,25 @@ int exact_order(const fm_change *change)
     return fm_metrics[metric].better == FM_BETTER_LESS ? less : -less;
 }
 
+fm_exact_verdict exact_verdict(const fm_changes *changes)
+{
+    for (size_t i = 0; i < changes->count; i++)
+        if (exact_order(&changes->items[i]) < 0)
+            return FM_EXACT_WORSE;
+    return changes->count > 0 ? FM_EXACT_DIFFERS : FM_EXACT_EQUAL;
+}
+
+const char *exact_verdict_name(fm_exact_verdict verdict)
+{
+    static const char *const names[] = {
+        [FM_EXACT_WORSE] = "worse",
+        [FM_EXACT_DIFFERS] = "differs",
+        [FM_EXACT_EQUAL] = "equal",
+    };
+    _Static_assert(sizeof names / sizeof names[0] == FM_EXACT_COUNT, "one name a verdict");
+    return names[verdict];
+}
+
 void exact_free(fm_changes *changes)
 {
     free(changes->items);

@@ -35,6 +35,16 @@ fm_status exact_add_image(fm_changes *changes, const fm_pair *pair, const char *
 /* Whether a change is for the worse (below 0: another status of more harm, more bytes, more errors)
  * or for the better (above 0). 0: nobody can say: the picture, options, counts of fragments. */
 int exact_order(const fm_change *change);
+
+/* What the changes of a case come to, the worst first. */
+typedef enum fm_exact_verdict {
+    FM_EXACT_WORSE,   /* one of them is for the worse */
+    FM_EXACT_DIFFERS, /* none is */
+    FM_EXACT_EQUAL,   /* there are none */
+    FM_EXACT_COUNT
+} fm_exact_verdict;
+fm_exact_verdict exact_verdict(const fm_changes *changes);
+const char *exact_verdict_name(fm_exact_verdict verdict); /* "worse" */
 void exact_free(fm_changes *changes);
 
 /* Which of the four hashes of code differ: "program driver plugin shaders", or a part of it; "":

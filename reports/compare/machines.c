@@ -4,8 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "hardware.h"
-
 static void add(fm_machines *machines, const char *prefix, const char *name, const char *base,
                 const char *now)
 {
@@ -22,9 +20,9 @@ static void add_machine(fm_machines *machines, const fm_provenance *base, const 
 {
     for (size_t i = 0; i < base->machine_count; i++)
         add(machines, "", base->machine[i].name, base->machine[i].value,
-            hardware_fact(now, base->machine[i].name));
+            provenance_machine_fact(now, base->machine[i].name));
     for (size_t i = 0; i < now->machine_count; i++)
-        if (hardware_fact(base, now->machine[i].name)[0] == '\0')
+        if (provenance_machine_fact(base, now->machine[i].name)[0] == '\0')
             add(machines, "", now->machine[i].name, "", now->machine[i].value);
 }
 
@@ -104,7 +102,7 @@ fm_status machines_compare(fm_machines *machines, const fm_machines_desc *desc, 
         "warmup",   "validation", "no_timers", "precision_percent"
     };
     enum { FACTS = sizeof facts / sizeof facts[0] };
-    const fm_hardware here = hardware_of(base), there = hardware_of(now);
+    const fm_hardware here = provenance_hardware(base), there = provenance_hardware(now);
     const size_t most = base->machine_count + now->machine_count + 3 * base->device_count +
                         desc->pairs->count + FACTS;
     *machines = (fm_machines){ .is_same_machine = hardware_is_same(&here, &there) };

@@ -15,9 +15,9 @@ typedef struct fm_machine_fact {
 typedef struct fm_machines {
     fm_machine_fact *differing; /* [count]; owned */
     size_t count;
-    /* Same hardware (hardware.h), and names of the devices that both manifests list, and of each
-     * case that has times in both runs. What one run does not tell is not the same. Drivers and
-     * kernels may differ: they are what may have become slower. */
+    /* Same hardware (model/hardware.h), and names of the devices that both manifests list, and of
+     * each case that has times in both runs. What one run does not tell is not the same. Drivers
+     * and kernels may differ: they are what may have become slower. */
     bool is_same_machine;
     bool is_same_day; /* both began on the same day, UTC */
 } fm_machines;

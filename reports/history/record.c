@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "compare/comparison.h"
-#include "compare/hardware.h"
 #include "compare/launches.h"
 #include "read/options.h"
 #include "read/workload.h"
@@ -248,7 +247,7 @@ static fm_status forget_run(fm_recorded *recorded, recorder *to)
 static fm_status record_run(fm_recorded *recorded, recorder *to)
 {
     sqlite3_int64 machine = 0;
-    const fm_hardware hardware = hardware_of(to->results->manifest);
+    const fm_hardware hardware = provenance_hardware(to->results->manifest);
     fm_status status = forget_run(recorded, to);
     if (status == FM_OK)
         status = find_machine(&machine, to->history, &hardware, to->err);
@@ -262,7 +261,7 @@ static fm_status record_run(fm_recorded *recorded, recorder *to)
 static fm_status check_manifest(const fm_result_files *results, fm_error *err)
 {
     static const char *const needed[] = { "run_id", "started" };
-    const fm_hardware hardware = hardware_of(results->manifest);
+    const fm_hardware hardware = provenance_hardware(results->manifest);
     for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++)
         if (provenance_fact(results->manifest, needed[i])[0] == '\0')
             return fm_fail(err, FM_UNSUPPORTED,

@@ -63,6 +63,30 @@ void history_runs_free(fm_run_list *runs)
     *runs = (fm_run_list){ 0 };
 }
 
+static const char select_newer[] =
+    "SELECT count(*), max(later.started) FROM run this JOIN run later"
+    " ON later.machine = this.machine AND later.started > this.started"
+    " WHERE this.run_id = :run_id AND EXISTS(SELECT 1 FROM measured m JOIN measured n"
+    "  ON n.name = m.name AND n.run = later.id WHERE m.run = this.id)";
+
+fm_status history_newer_runs(fm_newer_runs *newer, fm_history *history, const char *run_id,
+                             fm_error *err)
+{
+    sqlite3_stmt *statement = NULL;
+    bool has_row;
+    *newer = (fm_newer_runs){ .last = "" };
+    fm_status status = sql_prepare(&statement, history, select_newer, err);
+    if (status != FM_OK)
+        return status;
+    sql_bind_text(statement, ":run_id", run_id);
+    status = sql_step(&has_row, history, statement, err);
+    if (status == FM_OK && has_row)
+        *newer =
+            (fm_newer_runs){ (size_t)sqlite3_column_int64(statement, 0), sql_text(statement, 1) };
+    sqlite3_finalize(statement);
+    return status;
+}
+
 void history_add_runs(fm_text *text, const fm_run_list *runs)
 {
     if (runs->count == 0)

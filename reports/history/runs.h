@@ -25,6 +25,15 @@ typedef struct fm_run_list {
 fm_status history_runs(fm_run_list *runs, fm_history *history, fm_error *err);
 void history_runs_free(fm_run_list *runs);
 
+/* Runs of a run's machine that began after it did, and have one of its cases. */
+typedef struct fm_newer_runs {
+    size_t count;
+    const char *last; /* when the last of them began; "": there is none. Shared (base/text.h) */
+} fm_newer_runs;
+
+fm_status history_newer_runs(fm_newer_runs *newer, fm_history *history, const char *run_id,
+                             fm_error *err);
+
 /* A line a run below a line of headings; none: a sentence. */
 void history_add_runs(fm_text *text, const fm_run_list *runs);
 /* The same as JSON. FM_NO_MEMORY. */

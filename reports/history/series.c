@@ -41,6 +41,8 @@ static const char select_nights[] =
     " WHERE (:machine = '' OR fingerprint = :machine) AND (:wanted = '' OR m.method = :wanted"
     " OR EXISTS(SELECT 1 FROM measured w WHERE (w.case_id = :wanted OR w.title = :wanted)"
     "  AND w.name = m.name AND (w.n IS m.n OR w.n IS NULL OR m.n IS NULL)))"
+    " AND (:until = '' OR run_id = :until"
+    "  OR started < (SELECT started FROM run WHERE run_id = :until))"
     " ORDER BY started, run.id, m.id";
 
 static const char select_floor_ratios[] =
@@ -160,6 +162,7 @@ static fm_status read_rows(loader *to)
     if (status == FM_OK) {
         sql_bind_text(statement, ":machine", to->desc->machine != NULL ? to->desc->machine : "");
         sql_bind_text(statement, ":wanted", to->desc->wanted != NULL ? to->desc->wanted : "");
+        sql_bind_text(statement, ":until", to->desc->until != NULL ? to->desc->until : "");
     }
     while (status == FM_OK && has_row) {
         status = sql_step(&has_row, to->history, statement, to->err);
@@ -355,6 +358,8 @@ static fm_status check_names(fm_history *history, const fm_series_desc *desc, fm
     if (status == FM_OK && desc->machine != NULL)
         status =
             refuse_name(history, "machine", desc->machine, "SELECT fingerprint FROM machine", err);
+    if (status == FM_OK && desc->until != NULL)
+        status = refuse_name(history, "run", desc->until, "SELECT run_id FROM run", err);
     if (status == FM_OK && !is_floor(desc->reference))
         status = refuse_name(history, "reference method", desc->reference,
                              "SELECT DISTINCT method FROM measured", err);

@@ -37,6 +37,8 @@ typedef struct fm_series_desc {
     const char *machine;   /* fingerprint; NULL: all machines, each on its own */
     const char *reference; /* a method; NULL, "floor": the floor of the same launch */
     double level;          /* of a step in one series where there is none; 0: 0.01 */
+    const char *until;     /* a run_id: nights are those that began before this run did, and it, the
+                              last one; NULL: all */
     size_t most;           /* the last so many nights; 0 or above RANK_SUM_VALUES: as many */
 } fm_series_desc;
 
@@ -50,8 +52,8 @@ typedef struct fm_series_list {
  * of one machine are in the order in which they began. Nights without a ratio are in it, and steps
  * pass over them. Alarms share their level over the series of their machine that the last run has.
  *
- * FM_UNSUPPORTED: no case of that name, with the nearest; no such machine; no case of the reference
- * method; else as database.h says. The caller frees, after a failure too. */
+ * FM_UNSUPPORTED: no case of that name, with the nearest; no such machine or run; no case of the
+ * reference method; else as database.h says. The caller frees, after a failure too. */
 fm_status history_series(fm_series_list *list, fm_history *history, const fm_series_desc *desc,
                          fm_error *err);
 void history_series_free(fm_series_list *list);

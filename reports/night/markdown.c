@@ -25,8 +25,7 @@ static void add_findings(fm_text *text, const fm_night_result *night)
         char name[FM_COMPARED_NAME_BYTES];
         const fm_finding *finding = &night->findings[i];
         compared_name(name, &night->desc->now->cases[finding->case_index]);
-        text_add(text, "| %s%s | ", finding_kind_name(finding->kind),
-                 finding->is_dismissed ? ", not confirmed" : "");
+        text_add(text, "| %s%s | ", finding_kind_name(finding->kind), finding_standing(finding));
         add_cell(text, name);
         text_add(text, " | ");
         add_cell(text, finding->text);
@@ -35,6 +34,19 @@ static void add_findings(fm_text *text, const fm_night_result *night)
     if (night->count > FINDINGS)
         text_add(text, "\n%zu more are in night.json.\n", night->count - FINDINGS);
     text_add(text, "\n");
+}
+
+/* Whoever acts on a time should know whether it was measured again. */
+static void add_unconfirmed(fm_text *text, const fm_night_result *night)
+{
+    const char *why = night->desc->unconfirmed;
+    for (size_t i = 0; i < night->count; i++) {
+        const fm_finding *finding = &night->findings[i];
+        if (finding->kind != FM_FINDING_SLOWER || finding->is_confirmed || finding->is_dismissed)
+            continue;
+        text_add(text, "%s\n\n", why != NULL ? why : "Findings on time are unconfirmed.");
+        return;
+    }
 }
 
 static void add_counts(fm_text *text, const fm_night_result *night)
@@ -54,6 +66,16 @@ static void add_counts(fm_text *text, const fm_night_result *night)
             is_first = false;
         }
     text_add(text, "; %zu measured on a busy machine.\n\n", noisy);
+}
+
+static void add_newer(fm_text *text, const fm_newer_runs *newer)
+{
+    if (newer->count > 0)
+        text_add(
+            text,
+            "The history has %zu later run%s of these cases, the last of %s. This page is about "
+            "the run above, and about those before it.\n\n",
+            newer->count, newer->count == 1 ? "" : "s", newer->last);
 }
 
 static void add_certainty(fm_text *text, const fm_night_result *night)
@@ -104,9 +126,11 @@ void night_add_markdown(fm_text *text, const fm_night_result *night)
              night->desc->baseline != NULL ? ", baseline " : "",
              night->desc->baseline_name != NULL ? night->desc->baseline_name : "");
     add_findings(text, night);
+    add_unconfirmed(text, night);
     add_counts(text, night);
     for (size_t i = 0; notes != NULL && i < notes->count; i++)
         text_add(text, "%s\n\n", notes->items[i]);
+    add_newer(text, &night->newer);
     add_certainty(text, night);
     add_steps(text, night);
     text_add(text, "Files: `history.html`, `junit.xml`, `night.json`, `run/summary.csv`.\n");

@@ -26,7 +26,14 @@ const char *finding_kind_name(fm_finding_kind kind)
     return kind_names[kind];
 }
 
-/* The series whose last night is this case of this run. */
+const char *finding_standing(const fm_finding *finding)
+{
+    if (finding->is_dismissed)
+        return ", not confirmed";
+    return finding->is_confirmed ? ", confirmed" : "";
+}
+
+/* The series whose last night is this case of this run: series end with it, by `until`. */
 static void find_series(fm_night_case *found, const fm_series_list *list, const char *run_id,
                         const fm_case_row *row)
 {
@@ -107,9 +114,10 @@ fm_status night_judge(fm_night_result *night, const fm_night_desc *desc, fm_erro
     night->cases = calloc(desc->now->count + 1, sizeof *night->cases);
     if (night->cases == NULL)
         return fm_fail(err, FM_NO_MEMORY, "no memory for %zu cases", desc->now->count);
-    fm_status status =
-        history_series(&night->series, desc->history,
-                       &(fm_series_desc){ .reference = desc->reference, .most = NIGHTS }, err);
+    const fm_series_desc series = { .reference = desc->reference, .until = run_id, .most = NIGHTS };
+    fm_status status = history_newer_runs(&night->newer, desc->history, run_id, err);
+    if (status == FM_OK)
+        status = history_series(&night->series, desc->history, &series, err);
     if (status != FM_OK)
         return status;
     for (size_t i = 0; i < desc->now->count; i++)

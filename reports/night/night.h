@@ -5,6 +5,7 @@
 #ifndef FM_NIGHT_H
 #define FM_NIGHT_H
 
+#include "history/runs.h"
 #include "history/series.h"
 #include "read/result_files.h"
 
@@ -21,12 +22,16 @@ const char *finding_kind_name(fm_finding_kind kind); /* "slower" */
 typedef struct fm_finding {
     fm_finding_kind kind;
     size_t case_index; /* in the run */
+    bool is_confirmed; /* by fresh launches; of exact findings nobody asks */
     bool is_dismissed; /* it was to be confirmed, and was not: no alarm */
     char text[320];    /* "bytes_allocated 4096 -> 8192 since 2026-01-31T01:00:00Z" */
 } fm_finding;
 
-/* Whether a finding that hangs on noise is confirmed, by fresh launches say. It may set the text.
- * This is the place for a gate: without one, what the series say stands. */
+/* ", confirmed", ", not confirmed" or "": behind the name of its kind. */
+const char *finding_standing(const fm_finding *finding);
+
+/* Whether a finding that hangs on noise stands after a look at fresh launches, say (gate.h). It may
+ * set the text and is_confirmed: what nobody could look at stands, too, unconfirmed. */
 typedef bool fm_night_confirm(fm_finding *finding, const fm_result_files *now, void *context);
 
 typedef struct fm_night_desc {
@@ -38,6 +43,8 @@ typedef struct fm_night_desc {
     double effect;             /* a step of this factor should be found in three nights; 0: 1.06 */
     fm_night_confirm *confirm; /* FM_FINDING_SLOWER alone is handed to it; NULL: nobody confirms */
     void *context;
+    const char *unconfirmed;   /* why findings on time are not: a sentence for the summary, if there
+                                  is   such a finding; NULL: that they are not, alone */
     const fm_text_list *notes; /* sentences for the summary: what was left out, say; may be NULL */
 } fm_night_desc;
 
@@ -49,9 +56,10 @@ typedef struct fm_night_case {
 
 typedef struct fm_night_result {
     const fm_night_desc *desc;
-    fm_series_list series;
-    fm_night_case *cases; /* [now->count]; owned */
-    fm_finding *findings; /* [count], in the order of the kinds; owned */
+    fm_series_list series; /* up to this run */
+    fm_newer_runs newer;   /* which the history has, too, and which are not looked at */
+    fm_night_case *cases;  /* [now->count]; owned */
+    fm_finding *findings;  /* [count], in the order of the kinds; owned */
     size_t count, capacity;
     size_t alarms;       /* findings that were not dismissed */
     size_t early;        /* cases of too few nights for an alarm on time */
@@ -61,7 +69,8 @@ typedef struct fm_night_result {
     double noisiest;     /* its standard error now; NAN: unknown */
 } fm_night_result;
 
-/* Statuses, memory and errors are held against the night before and the baseline, exactly, as
+/* Judges this run, be it the last one of the history or not, by nights that began before it did.
+ * Statuses, memory and errors are held against the night before and the baseline, exactly, as
  * fragmark compare does; times by the alarms of their series (history/alarm.h). Times are never
  * held against one night alone. desc is borrowed. FM_INVALID, FM_IO, FM_NO_MEMORY as database.h;
  * FM_UNSUPPORTED: the reference is not in the history. The caller frees, after a failure too. */

@@ -13,8 +13,10 @@ static json_t *finding_json(const fm_finding *finding, const fm_result_files *no
     text_make_utf8(name);
     snprintf(text, sizeof text, "%s", finding->text);
     text_make_utf8(text);
-    return json_pack("{s:s, s:s, s:s, s:s, s:b}", "kind", finding_kind_name(finding->kind), "case",
-                     name, "case_id", row->id, "text", text, "dismissed", finding->is_dismissed);
+    return json_pack("{s:s, s:s, s:s, s:s, s:s, s:b, s:b}", "kind",
+                     finding_kind_name(finding->kind), "case", name, "case_id", row->id, "method",
+                     row->method, "text", text, "confirmed", finding->is_confirmed, "dismissed",
+                     finding->is_dismissed);
 }
 
 fm_status night_add_json(fm_text *json, const fm_night_result *night, fm_error *err)
@@ -25,13 +27,14 @@ fm_status night_add_json(fm_text *json, const fm_night_result *night, fm_error *
         failed =
             json_array_append_new(findings, finding_json(&night->findings[i], night->desc->now));
     json_t *all = json_pack(
-        "{s:i, s:s, s:I, s:I, s:I, s:I, s:I, s:o, s:o}", "schema", 1, "verdict",
+        "{s:i, s:s, s:I, s:I, s:I, s:I, s:I, s:I, s:o, s:o}", "schema", 1, "verdict",
         night->alarms > 0         ? "alarm"
         : night->new_failures > 0 ? "failed"
                                   : "quiet",
         "cases", (json_int_t)night->desc->now->count, "alarms", (json_int_t)night->alarms,
-        "new_failures", (json_int_t)night->new_failures, "early", (json_int_t)night->early,
-        "launches_needed", (json_int_t)night->launches_needed, "noisiest",
+        "new_failures", (json_int_t)night->new_failures, "newer_nights",
+        (json_int_t)night->newer.count, "early", (json_int_t)night->early, "launches_needed",
+        (json_int_t)night->launches_needed, "noisiest",
         isnan(night->noisiest) ? json_null() : json_real(night->noisiest), "findings", findings);
     char *text = failed || all == NULL ? NULL : json_dumps(all, JSON_INDENT(2));
     if (text != NULL)

@@ -121,6 +121,7 @@ void page_add_links(fm_text *page, const fm_text_list *papers)
         text_add(page, "<a href=\"#paper-%s\">%s</a>", papers->items[i],
                  strcmp(papers->items[i], "none") == 0 ? "figures" : papers->items[i]);
     text_add(page, "<a href=\"#pictures\">Pictures</a><a href=\"#speed\">Speed against error</a>"
+                   "<a href=\"#hardware\">What the device allows</a>"
                    "<a href=\"#stability\">Stability</a>"
                    "<a href=\"#notes\">Notes</a><a href=\"#guide\">How to read</a><a "
                    "href=\"#machine\">Machine and methods</a></nav>\n");
@@ -144,6 +145,13 @@ void page_add_guide(fm_text *page)
         "(Z-buffer, culling, tile-k) comes below. Each feed has its floor. It compares between "
         "machines where milliseconds "
         "cannot.",
+        "<b>The bound</b> is the least time for a case on its device: that of the floor, or what "
+        "copying the fragments, those that are kept and the picture takes if that is longer. "
+        "<b>&times; bound</b> is frame_ms over it: how much better a method could ever be. It "
+        "needs a calibration of the device (<code>fragmark calibrate device</code>). "
+        "<b>limited_by</b> says what takes the device longest of a case: delivering its "
+        "fragments (feed), the bytes that its shaders move, or its atomics, each at the rate that "
+        "was calibrated.",
         "<b>total_rmse</b> is the error of the picture against all fragments, sorted and "
         "composited "
         "in double precision; up to 1e-6 it is rounding, and called exact. It has two parts: "

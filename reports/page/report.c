@@ -38,6 +38,8 @@ static fm_status write_sections(fm_writer *to, fm_text *tradeoff, fm_text *stabi
     if (status == FM_OK)
         status = speed_section_add(to, &groups, desc->figure_count > 0);
     if (status == FM_OK)
+        status = hardware_section_add(to);
+    if (status == FM_OK)
         status = stability_section_add(to);
     if (status == FM_OK)
         status = stability_csv_add(stability, to->results, to->err);

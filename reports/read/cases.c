@@ -28,6 +28,7 @@ static const size_t fact_at[FM_FACT_COUNT] = {
     [FM_FACT_CODE_PLUGIN] = offsetof(fm_case_row, code_plugin),
     [FM_FACT_CODE_SHADERS] = offsetof(fm_case_row, code_shaders),
     [FM_FACT_REASON] = offsetof(fm_case_row, reason),
+    [FM_FACT_LIMITED_BY] = offsetof(fm_case_row, limited_by),
 };
 
 #define KEY(field, text)                                                                           \

@@ -20,7 +20,8 @@ typedef struct fm_case_row {
     const char *status, *message, *method, *method_version, *device, *device_name, *feed;
     const char *scene, *order, *seed, *options; /* options: read by options.h */
     const char *reason; /* of not_supported, a word of model/outcome.h; "": of an older run, too */
-    const char *noisy;  /* why its times are not to be relied on; "": no reason is known */
+    const char *limited_by; /* feed, bytes, atomics; "": not known */
+    const char *noisy;      /* why its times are not to be relied on; "": no reason is known */
     /* what it was measured by: hashes; "": none came so far, or an older file */
     const char *code_program, *code_driver, *code_plugin, *code_shaders;
     /* the workload; k is NAN for methods that keep no k nearest */

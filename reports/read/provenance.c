@@ -1,6 +1,7 @@
 #include "provenance.h"
 
 #include <jansson.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -234,10 +235,30 @@ const fm_device_info *provenance_device(const fm_provenance *manifest, const cha
     return NULL;
 }
 
+static const char *find_fact(const fm_manifest_fact *facts, size_t count, const char *name)
+{
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(facts[i].name, name) == 0)
+            return facts[i].value;
+    return "";
+}
+
 const char *provenance_fact(const fm_provenance *manifest, const char *name)
 {
-    for (size_t i = 0; i < manifest->fact_count; i++)
-        if (strcmp(manifest->facts[i].name, name) == 0)
-            return manifest->facts[i].value;
-    return "";
+    return find_fact(manifest->facts, manifest->fact_count, name);
+}
+
+const char *provenance_machine_fact(const fm_provenance *manifest, const char *name)
+{
+    return find_fact(manifest->machine, manifest->machine_count, name);
+}
+
+fm_hardware provenance_hardware(const fm_provenance *manifest)
+{
+    fm_hardware hardware = { provenance_machine_fact(manifest, "cpu"),
+                             provenance_machine_fact(manifest, "cores"), NAN };
+    const char *memory = provenance_machine_fact(manifest, "memory_bytes");
+    if (!text_to_double(&hardware.memory_bytes, memory))
+        hardware.memory_bytes = NAN;
+    return hardware;
 }

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "fragmark/method.h"
+#include "model/hardware.h"
 
 /* A method of the run, as its descriptor described it. */
 typedef struct fm_method_info {
@@ -61,5 +62,9 @@ const fm_method_info *provenance_method(const fm_provenance *manifest,
 const fm_device_info *provenance_device(const fm_provenance *manifest, const char *selector,
                                         const char *name);
 const char *provenance_fact(const fm_provenance *manifest, const char *name); /* "": none */
+/* The same of "machine". */
+const char *provenance_machine_fact(const fm_provenance *manifest, const char *name);
+/* Which machine it was; texts are the manifest's. */
+fm_hardware provenance_hardware(const fm_provenance *manifest);
 
 #endif

@@ -102,6 +102,9 @@ static fm_status open_runs(ab_session *session, fm_run_desc *runs,
         runs[side] = desc->run;
         runs[side].directory = folders[side];
         runs[side].command = desc->command;
+        runs[side].worker = desc->programs[side].path;
+        runs[side].worker_commit = desc->programs[side].commit;
+        runs[side].worker_compiler = desc->programs[side].compiler;
         runs[side].progress = NULL; /* pairs are told here */
         status = run_open(&session->runs[side], desc->plans[side], desc->plugins[side], &runs[side],
                           err);

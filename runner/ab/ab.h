@@ -17,6 +17,11 @@
 #include "parent/run.h"
 #include "sides.h"
 
+/* The program that measures a side. Zero: this one. All borrowed. */
+typedef struct ab_program {
+    const char *path, *commit, *compiler; /* as worker, worker_commit, ... of fm_run_desc */
+} ab_program;
+
 /* All borrowed. */
 typedef struct ab_desc {
     const char *directory;         /* made */
@@ -25,8 +30,9 @@ typedef struct ab_desc {
     const fm_plugin_list *plugins[AB_SIDE_COUNT];
     const ab_policy *policy;
     const ab_noise_list *noise; /* NULL: none */
-    fm_run_desc run; /* limits, validation, worker, progress and talk of both runs; what else is in
-                        it is set here */
+    fm_run_desc run; /* limits, validation, progress and talk of both runs; what else is in it is
+                        set here */
+    ab_program programs[AB_SIDE_COUNT]; /* whose workers measure */
 } ab_desc;
 
 typedef struct ab_case {

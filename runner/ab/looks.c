@@ -17,7 +17,7 @@ static bool is_tested(const ab_judged *judged)
 
 /* One test among others. */
 typedef struct test_place {
-    ab_judged *judged;
+    ab_judged *judged; /* NULL: it was decided earlier, and stays as it was */
     double p;
 } test_place;
 
@@ -31,7 +31,8 @@ static fm_status adjust(test_place *tests, size_t count, fm_error *err)
         p[i] = tests[i].p;
     const fm_status status = levels_adjust(p, p, count, err);
     for (size_t i = 0; i < count && status == FM_OK; i++)
-        tests[i].judged->adjusted = p[i];
+        if (tests[i].judged != NULL)
+            tests[i].judged->adjusted = p[i];
     free(p);
     return status;
 }
@@ -73,6 +74,12 @@ static void decide(ab_tested *tested, const ab_policy *policy, size_t look)
     tested->is_decided = tested->verdict != AB_UNCLEAR || look + 1 == policy->look_count;
 }
 
+static bool is_open(const ab_tested *tested)
+{
+    return !tested->is_decided && !tested->is_out;
+}
+
+/* What was decided keeps the p that decided it, and its place among the tests. */
 static fm_status adjust_all(ab_tested *cases, size_t count, fm_error *err)
 {
     size_t used = 0;
@@ -82,15 +89,11 @@ static fm_status adjust_all(ab_tested *cases, size_t count, fm_error *err)
     for (size_t i = 0; i < count; i++)
         for (int s = 0; s < AB_STATISTIC_COUNT; s++)
             if (is_tested(&cases[i].judged[s]))
-                tests[used++] = (test_place){ &cases[i].judged[s], cases[i].judged[s].p };
+                tests[used++] = (test_place){ is_open(&cases[i]) ? &cases[i].judged[s] : NULL,
+                                              cases[i].judged[s].p };
     const fm_status status = adjust(tests, used, err);
     free(tests);
     return status;
-}
-
-static bool is_open(const ab_tested *tested)
-{
-    return !tested->is_decided && !tested->is_out;
 }
 
 fm_status looks_judge(ab_tested *cases, size_t count, const ab_policy *policy, size_t look,

@@ -26,9 +26,9 @@ typedef struct ab_tested {
 ab_statistic looks_decisive(const ab_tested *tested);
 
 /* Judges all open cases after policy->looks[look] pairs. Tests of cases that were decided earlier
- * stay among those that p is adjusted for. A case is worse, or better, if one of its statistics is
- * (worse wins), the same if the decisive one is, else unclear; at the last look all are decided.
- * FM_NO_MEMORY; FM_INVALID as judge_pairs. */
+ * stay among those that p is adjusted for, and keep the adjusted p of their own look. A case is
+ * worse, or better, if one of its statistics is (worse wins), the same if the decisive one is, else
+ * unclear; at the last look all are decided. FM_NO_MEMORY; FM_INVALID as judge_pairs. */
 fm_status looks_judge(ab_tested *cases, size_t count, const ab_policy *policy, size_t look,
                       fm_error *err);
 /* Whether it is to have the pairs of a confirmation: worse, not yet confirmed, not is_out. */

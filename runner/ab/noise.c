@@ -95,23 +95,45 @@ fm_status noise_of_pairs(ab_noise *noise, const double *const differences[AB_STA
     return status;
 }
 
-double noise_least(const ab_noise_list *list, const char *device_name, ab_statistic statistic,
-                   const ab_policy *policy)
+static ab_noise *find_device(const ab_noise_list *list, const char *device_name)
 {
     for (size_t i = 0; i < list->count; i++)
         if (strcmp(list->items[i].device_name, device_name) == 0)
-            return AB_ERRORS_THAT_COUNT * list->items[i].statistics[statistic].standard_error *
-                   sqrt((double)list->items[i].planned / (double)policy->looks[0]);
-    return 0.0;
+            return &list->items[i];
+    return NULL;
+}
+
+double noise_least(const ab_noise_list *list, const char *device_name, ab_statistic statistic,
+                   const ab_policy *policy)
+{
+    const ab_noise *noise = find_device(list, device_name);
+    return noise != NULL ? AB_ERRORS_THAT_COUNT * noise->statistics[statistic].standard_error *
+                               sqrt((double)noise->planned / (double)policy->looks[0])
+                         : 0.0;
+}
+
+/* By the statistic that decides. Of two that detect the band alone, the one that scatters more. */
+static bool is_noisier(const ab_noise *a, const ab_noise *b)
+{
+    const ab_statistic decisive = a->statistics[AB_CPU].detectable > 0.0 ? AB_CPU : AB_TIME;
+    const ab_noise_statistic *x = &a->statistics[decisive], *y = &b->statistics[decisive];
+    return x->detectable != y->detectable ? x->detectable > y->detectable
+                                          : x->standard_error > y->standard_error;
+}
+
+fm_status noise_keep_noisiest(ab_noise_list *list, const ab_noise *noise, fm_error *err)
+{
+    const ab_noise *there = find_device(list, noise->device_name);
+    return there == NULL || is_noisier(noise, there) ? noise_keep(list, noise, err) : FM_OK;
 }
 
 fm_status noise_keep(ab_noise_list *list, const ab_noise *noise, fm_error *err)
 {
-    for (size_t i = 0; i < list->count; i++)
-        if (strcmp(list->items[i].device_name, noise->device_name) == 0) {
-            list->items[i] = *noise;
-            return FM_OK;
-        }
+    ab_noise *there = find_device(list, noise->device_name);
+    if (there != NULL) {
+        *there = *noise;
+        return FM_OK;
+    }
     ab_noise *grown = reallocarray(list->items, list->count + 1, sizeof *grown);
     if (grown == NULL)
         return fm_fail(err, FM_NO_MEMORY, "no memory for %zu calibrations", list->count + 1);

@@ -46,14 +46,20 @@ double noise_least(const ab_noise_list *list, const char *device_name, ab_statis
                    const ab_policy *policy);
 /* Takes the place of what the list has of that device. FM_NO_MEMORY. */
 fm_status noise_keep(ab_noise_list *list, const ab_noise *noise, fm_error *err);
+/* The same, if it is noisier than that: if the smallest change of processor time that can be
+ * detected is larger; of frame time where no processor time was measured. FM_NO_MEMORY. */
+fm_status noise_keep_noisiest(ab_noise_list *list, const ab_noise *noise, fm_error *err);
 void noise_free(ab_noise_list *list);
 
-/* 16 hex digits: processor, cores and memory. Kernel, driver and governor are not among them. */
-void noise_fingerprint(char digits[17], const fm_machine *machine);
-/* Where the calibration of this machine lies: $XDG_STATE_HOME/fragmark/calibration/FINGERPRINT.json
- * (without the variable ~/.local/state). FM_INVALID: neither XDG_STATE_HOME nor HOME is set, or too
- * long a path. */
-fm_status noise_path(char path[FM_PATH_MAX_BYTES], const fm_machine *machine, fm_error *err);
+/* Where calibrations lie: $XDG_STATE_HOME/fragmark/calibration (without the variable
+ * ~/.local/state). FM_INVALID: neither XDG_STATE_HOME nor HOME is set, or too long a path. */
+fm_status noise_folder(char folder[FM_PATH_MAX_BYTES], fm_error *err);
+/* The file of this machine in the folder: the one that was written last of those whose machine is
+ * the same (model/hardware.h), whatever its name; FINGERPRINT.json where there is none, or no
+ * folder. FM_INVALID: a file that does not tell its machine, which may be this one, or too long a
+ * path; FM_IO, FM_NO_MEMORY. */
+fm_status noise_find(char path[FM_PATH_MAX_BYTES], const char *folder, const fm_machine *machine,
+                     fm_error *err);
 /* A file that is not there is an empty list. FM_INVALID, with the file: it is no calibration, or
  * another machine's (nothing of it is taken then); FM_IO, FM_NO_MEMORY. */
 fm_status noise_read(ab_noise_list *list, const char *path, const fm_machine *machine,

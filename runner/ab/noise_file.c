@@ -1,33 +1,38 @@
 /* Where calibrations lie: one file a machine. */
+#include <dirent.h>
 #include <errno.h>
-#include <inttypes.h>
 #include <jansson.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/state.h"
 #include "base/text.h"
-#include "code/code.h"
+#include "model/hardware.h"
 #include "noise.h"
 
-enum { SCHEMA = 1, FILE_MAX_BYTES = 1 << 20, DEVICES_MAX = 1000 };
+enum { SCHEMA = 1, FILE_MAX_BYTES = 1 << 20, DEVICES_MAX = 1000, CORES_BYTES = 24 };
 
-void noise_fingerprint(char digits[17], const fm_machine *machine)
+static const double gib = 1 << 30;
+
+static fm_hardware hardware_of(char cores[CORES_BYTES], const fm_machine *machine)
 {
-    char facts[256];
-    const int length = snprintf(facts, sizeof facts, "%s\n%u\n%" PRIu64, machine->cpu,
-                                machine->cores, machine->memory_bytes);
-    code_digits(digits, code_hash(facts, (size_t)length));
+    snprintf(cores, CORES_BYTES, "%u", machine->cores);
+    return (fm_hardware){ machine->cpu, cores, (double)machine->memory_bytes };
 }
 
-fm_status noise_path(char path[FM_PATH_MAX_BYTES], const fm_machine *machine, fm_error *err)
+/* Of which machine a file is; texts are the file's. */
+static bool read_hardware(fm_hardware *hardware, char cores[CORES_BYTES], json_t *file)
 {
-    char digits[17], name[64];
-    noise_fingerprint(digits, machine);
-    snprintf(name, sizeof name, "calibration/%s.json", digits);
-    return state_path(path, NULL, name, false, err);
+    json_int_t count = 0;
+    if (json_unpack(file, "{s:s, s:I, s:F}", "cpu", &hardware->cpu, "cores", &count, "memory_bytes",
+                    &hardware->memory_bytes) != 0)
+        return false;
+    snprintf(cores, CORES_BYTES, "%lld", (long long)count);
+    hardware->cores = cores;
+    return true;
 }
 
 static bool read_statistic(ab_noise_statistic *statistic, json_t *json)
@@ -86,39 +91,127 @@ static fm_status read_devices(ab_noise_list *list, const json_t *devices, const 
 static fm_status take(ab_noise_list *list, json_t *file, const char *path,
                       const fm_machine *machine, fm_error *err)
 {
-    char digits[17];
+    char cores_there[CORES_BYTES], cores_here[CORES_BYTES];
     json_int_t schema = 0;
-    const char *fingerprint = "";
     json_t *devices = NULL;
-    noise_fingerprint(digits, machine);
-    if (json_unpack(file, "{s:I, s:s, s:o}", "schema", &schema, "fingerprint", &fingerprint,
-                    "devices", &devices) != 0 ||
-        schema != SCHEMA || !json_is_array(devices))
+    fm_hardware there;
+    const fm_hardware here = hardware_of(cores_here, machine);
+    if (json_unpack(file, "{s:I, s:o}", "schema", &schema, "devices", &devices) != 0 ||
+        schema != SCHEMA || !json_is_array(devices) || !read_hardware(&there, cores_there, file))
         return fm_fail(err, FM_INVALID, "%s: no calibration that this program knows", path);
-    if (strcmp(fingerprint, digits) != 0)
+    if (!hardware_is_same(&there, &here))
         return fm_fail(err, FM_INVALID,
-                       "%s: the calibration of another machine (%.16s, this one is %s); `fragmark "
-                       "calibrate` makes one",
-                       path, fingerprint, digits);
+                       "%s: the calibration of another machine (%.100s, %s cores, %.4g GiB; this "
+                       "one is %s, %s cores, %.4g GiB); `fragmark calibrate` makes one",
+                       path, there.cpu, there.cores, there.memory_bytes / gib, here.cpu, here.cores,
+                       here.memory_bytes / gib);
     return read_devices(list, devices, path, err);
+}
+
+/* The caller drops *file, which is NULL on failure. */
+static fm_status load(json_t **file, const char *path, fm_error *err)
+{
+    char *bytes = NULL;
+    size_t count = 0;
+    json_error_t fault = { 0 };
+    *file = NULL;
+    const fm_status status = text_read_file(&bytes, &count, path, FILE_MAX_BYTES, err);
+    if (status != FM_OK)
+        return status;
+    *file = json_loadb(bytes, count, JSON_REJECT_DUPLICATES, &fault);
+    free(bytes);
+    return *file != NULL ? FM_OK
+                         : fm_fail(err, FM_INVALID, "%s:%d: %s", path, fault.line, fault.text);
+}
+
+fm_status noise_folder(char folder[FM_PATH_MAX_BYTES], fm_error *err)
+{
+    return state_path(folder, NULL, "calibration", false, err);
+}
+
+/* A file of a machine that is the same, and when it was written last. */
+typedef struct noise_place {
+    const fm_hardware *hardware;
+    char path[FM_PATH_MAX_BYTES]; /* "": none so far */
+    struct timespec written;
+} noise_place;
+
+static bool is_later(const struct timespec *a, const struct timespec *b)
+{
+    return a->tv_sec != b->tv_sec ? a->tv_sec > b->tv_sec : a->tv_nsec > b->tv_nsec;
+}
+
+/* Takes the file if it is the machine's, and later than what was found. */
+static fm_status look_at(noise_place *found, const char *path, fm_error *err)
+{
+    char cores[CORES_BYTES];
+    fm_hardware there;
+    struct stat info;
+    json_t *file;
+    fm_status status = load(&file, path, err);
+    if (status == FM_OK && !read_hardware(&there, cores, file))
+        status = fm_fail(err, FM_INVALID, "%s: no calibration that this program knows", path);
+    if (status == FM_OK && hardware_is_same(&there, found->hardware) && stat(path, &info) == 0 &&
+        (found->path[0] == '\0' || is_later(&info.st_mtim, &found->written))) {
+        strcpy(found->path, path);
+        found->written = info.st_mtim;
+    }
+    json_decref(file);
+    return status;
+}
+
+static int is_calibration(const struct dirent *entry)
+{
+    const char *end = strrchr(entry->d_name, '.');
+    return entry->d_name[0] != '.' && end != NULL && strcmp(end, ".json") == 0;
+}
+
+static fm_status look_through(noise_place *found, const char *folder, fm_error *err)
+{
+    struct dirent **entries = NULL;
+    fm_status status = FM_OK;
+    const int count = scandir(folder, &entries, is_calibration, alphasort);
+    if (count < 0)
+        return errno == ENOENT ? FM_OK : fm_fail(err, FM_IO, "%s: %s", folder, strerror(errno));
+    for (int i = 0; i < count; i++) {
+        char path[FM_PATH_MAX_BYTES];
+        if (status == FM_OK)
+            status = path_join(path, folder, entries[i]->d_name, err);
+        if (status == FM_OK)
+            status = look_at(found, path, err);
+        free(entries[i]);
+    }
+    free(entries);
+    return status;
+}
+
+fm_status noise_find(char path[FM_PATH_MAX_BYTES], const char *folder, const fm_machine *machine,
+                     fm_error *err)
+{
+    char cores[CORES_BYTES], fingerprint[FM_FINGERPRINT_BYTES], name[FM_FINGERPRINT_BYTES + 8];
+    const fm_hardware here = hardware_of(cores, machine);
+    noise_place found = { .hardware = &here };
+    path[0] = '\0';
+    const fm_status status = look_through(&found, folder, err);
+    if (status == FM_OK && found.path[0] != '\0')
+        strcpy(path, found.path);
+    if (status != FM_OK || found.path[0] != '\0')
+        return status;
+    hardware_fingerprint(fingerprint, &here);
+    snprintf(name, sizeof name, "%s.json", fingerprint);
+    return path_join(path, folder, name, err);
 }
 
 fm_status noise_read(ab_noise_list *list, const char *path, const fm_machine *machine,
                      fm_error *err)
 {
-    char *bytes = NULL;
-    size_t count = 0;
-    json_error_t fault = { 0 };
+    json_t *file = NULL;
     *list = (ab_noise_list){ 0 };
     if (access(path, F_OK) != 0 && errno == ENOENT)
         return FM_OK;
-    fm_status status = text_read_file(&bytes, &count, path, FILE_MAX_BYTES, err);
-    if (status != FM_OK)
-        return status;
-    json_t *file = json_loadb(bytes, count, JSON_REJECT_DUPLICATES, &fault);
-    free(bytes);
-    status = file != NULL ? take(list, file, path, machine, err)
-                          : fm_fail(err, FM_INVALID, "%s:%d: %s", path, fault.line, fault.text);
+    fm_status status = load(&file, path, err);
+    if (status == FM_OK)
+        status = take(list, file, path, machine, err);
     json_decref(file);
     if (status != FM_OK)
         noise_free(list);
@@ -145,14 +238,12 @@ static json_t *device_json(const ab_noise *noise)
 
 static json_t *file_json(const ab_noise_list *list, const fm_machine *machine)
 {
-    char digits[17];
     json_t *devices = json_array();
-    noise_fingerprint(digits, machine);
     for (size_t i = 0; i < list->count; i++)
         json_array_append_new(devices, device_json(&list->items[i]));
-    return json_pack("{s:i, s:s, s:s, s:I, s:I, s:o}", "schema", SCHEMA, "fingerprint", digits,
-                     "cpu", machine->cpu, "cores", (json_int_t)machine->cores, "memory_bytes",
-                     (json_int_t)machine->memory_bytes, "devices", devices);
+    return json_pack("{s:i, s:s, s:I, s:I, s:o}", "schema", SCHEMA, "cpu", machine->cpu, "cores",
+                     (json_int_t)machine->cores, "memory_bytes", (json_int_t)machine->memory_bytes,
+                     "devices", devices);
 }
 
 static fm_status make_folder_of(const char *path, fm_error *err)

@@ -3,26 +3,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "fragmark/method.h"
+#include "plan/plan_case.h"
 
 const char *const ab_side_names[AB_SIDE_COUNT] = { "base", "new" };
-
-fm_status side_find_folder(char folder[FM_PATH_MAX_BYTES], const char *path, fm_error *err)
-{
-    static const char *const inside[] = { "methods", "lib/fragmark/methods" };
-    const fm_status status = path_is_folder(path, err);
-    for (size_t i = 0; i < sizeof inside / sizeof inside[0] && status == FM_OK; i++)
-        if (path_join(folder, path, inside[i], NULL) == FM_OK &&
-            path_is_folder(folder, NULL) == FM_OK)
-            return FM_OK;
-    if (status == FM_OK && strlen(path) >= FM_PATH_MAX_BYTES)
-        return fm_fail(err, FM_INVALID, "%.64s...: too long a path", path);
-    if (status == FM_OK)
-        strcpy(folder, path);
-    return status;
-}
 
 fm_status side_parse(char method[64], const char **directory, const char *text, fm_error *err)
 {
@@ -115,6 +100,71 @@ static fm_status index_keys(fm_text_index *index, const fm_plan *plan, bool has_
             status = fm_fail(err, FM_NO_MEMORY, "no memory for %zu cases", plan->count);
         text_free(&key);
     }
+    return status;
+}
+
+static bool has_id(const fm_plan *plan, const char *id)
+{
+    for (size_t i = 0; i < plan->count; i++)
+        if (strcmp(plan->cases[i].id, id) == 0)
+            return true;
+    return false;
+}
+
+/* Adds what the cases of these ids were asked for. */
+static fm_status index_chosen(fm_text_index *chosen, const fm_plan *plan, bool has_method,
+                              const fm_text_list *ids, fm_error *err)
+{
+    fm_status status = FM_OK;
+    for (size_t i = 0; i < plan->count && status == FM_OK; i++) {
+        fm_text key = { 0 };
+        if (!text_list_has(ids, plan->cases[i].id))
+            continue;
+        add_key(&key, &plan->cases[i], has_method);
+        if (key.failed || text_index_add(chosen, key.bytes, i) == FM_TEXT_INDEX_NONE)
+            status = fm_fail(err, FM_NO_MEMORY, "no memory for %zu cases", plan->count);
+        text_free(&key);
+    }
+    return status;
+}
+
+/* A refused method's one row stands for whatever is chosen of it. */
+static void keep_chosen(fm_plan *plan, const fm_text_index *chosen, bool has_method)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < plan->count; i++) {
+        fm_text key = { 0 };
+        add_key(&key, &plan->cases[i], has_method);
+        if (plan->cases[i].skip_status == FM_CASE_PLUGIN_ERROR ||
+            (!key.failed && text_index_find(chosen, key.bytes) != FM_TEXT_INDEX_NONE))
+            plan->cases[kept++] = plan->cases[i];
+        else
+            plan_case_release(&plan->cases[i]);
+        text_free(&key);
+    }
+    plan->count = kept;
+}
+
+fm_status sides_choose(fm_plan *base, fm_plan *now, const fm_text_list *ids, fm_error *err)
+{
+    fm_text_index chosen = { 0 };
+    const bool has_method = !(has_one_method(base) && has_one_method(now));
+    fm_status status = FM_OK;
+    for (size_t i = 0; i < ids->count && status == FM_OK; i++)
+        if (!has_id(base, ids->items[i]) && !has_id(now, ids->items[i]))
+            status =
+                fm_fail(err, FM_INVALID,
+                        "no case has the id '%.32s'; `fragmark plan` lists those that there are",
+                        ids->items[i]);
+    if (status == FM_OK)
+        status = index_chosen(&chosen, base, has_method, ids, err);
+    if (status == FM_OK)
+        status = index_chosen(&chosen, now, has_method, ids, err);
+    if (status == FM_OK) {
+        keep_chosen(base, &chosen, has_method);
+        keep_chosen(now, &chosen, has_method);
+    }
+    text_index_free(&chosen);
     return status;
 }
 

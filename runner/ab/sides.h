@@ -1,16 +1,12 @@
-/* BASE and NEW: where their plugins lie, and which cases both have. */
+/* BASE and NEW: what names them, and which cases both have. */
 #ifndef FM_AB_SIDES_H
 #define FM_AB_SIDES_H
 
-#include "base/path.h"
 #include "plan/plan.h"
 
 typedef enum ab_side_name { AB_BASE, AB_NEW, AB_SIDE_COUNT } ab_side_name;
 extern const char *const ab_side_names[AB_SIDE_COUNT]; /* "base", "new" */
 
-/* The folder of plugins that a path means: PATH/methods where there is one (a build), or
- * PATH/lib/fragmark/methods (an installed prefix), else PATH itself. FM_IO: it is no folder. */
-fm_status side_find_folder(char folder[FM_PATH_MAX_BYTES], const char *path, fm_error *err);
 /* Parts "METHOD@DIR" at its first '@'; method has room for 64 bytes. FM_INVALID: no '@', or nothing
  * on one side of it. */
 fm_status side_parse(char method[64], const char **directory, const char *text, fm_error *err);
@@ -21,6 +17,10 @@ fm_status side_expect(const fm_plugin_list *plugins, const char *folder, const c
  * order of the list. Refused ones are among them. FM_NO_MEMORY, or why plugins cannot be read. */
 fm_status side_methods(fm_text_list *ids, const fm_plugin_list *plugins, const char *folder,
                        fm_error *err);
+
+/* Leaves of both plans the cases that have one of these ids on either side, with their partners,
+ * before they are joined. FM_INVALID: no case has one of the ids; FM_NO_MEMORY. */
+fm_status sides_choose(fm_plan *base, fm_plan *now, const fm_text_list *ids, fm_error *err);
 
 /* The same case in both plans, by index. */
 typedef struct ab_pair {

@@ -1,6 +1,7 @@
 #include "error.h"
 
 #include <assert.h>
+#include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -60,4 +61,13 @@ fm_status fm_error_prefix(fm_error *err, const char *format, ...)
     snprintf(err->message, sizeof err->message, "%s: %.*s", prefix,
              (int)(sizeof below - sizeof prefix - 2), below); /* and ": " */
     return err->status;
+}
+
+bool fm_error_is_the_worlds(const fm_error *err)
+{
+    static const int causes[] = { ENOSPC, EDQUOT, EFBIG, EMFILE, ENFILE, EROFS, EIO };
+    for (size_t i = 0; i < sizeof causes / sizeof causes[0]; i++)
+        if (strstr(err->message, strerror(causes[i])) != NULL)
+            return true;
+    return false;
 }

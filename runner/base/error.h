@@ -62,4 +62,8 @@ fm_status fm_error_refuse(fm_error *err, fm_status status, fm_reason reason);
 fm_status fm_error_prefix(fm_error *err, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
+/* Whether its message names what the world does to whoever opens or writes a file, whoever that is:
+ * a full or read-only disk, too many open files. */
+bool fm_error_is_the_worlds(const fm_error *err);
+
 #endif

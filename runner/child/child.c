@@ -74,6 +74,8 @@ static void become(const fm_child_desc *desc, char *const *environment, int log,
         _exit(NOT_EXECUTED);
     if (desc->kept_fd != 0)
         fcntl(desc->kept_fd, F_SETFD, 0);
+    if (desc->folder != NULL && chdir(desc->folder) != 0)
+        _exit(NOT_EXECUTED);
     execve(desc->path, desc->argv, environment);
     _exit(NOT_EXECUTED);
 }

@@ -20,6 +20,7 @@ typedef struct fm_child_desc {
     const char *const *added; /* "NAME=VALUE" over our environment, in place of
                                * what has the name; ends with NULL; may be NULL */
     const char *log;          /* file that its stdout and stderr are appended to */
+    const char *folder;       /* it works in; NULL: ours. `path` is seen from it */
     int kept_fd;              /* stays open under the same number; 0: none */
 } fm_child_desc;
 

@@ -17,6 +17,7 @@ enum {
     KEY_TIMEOUT,
     KEY_MEMORY,
     KEY_NO_IMAGES,
+    KEY_NO_CACHE,
     KEY_VALIDATION,
     KEY_NO_TIMERS,
     KEY_NO_REPORT,
@@ -63,6 +64,10 @@ static const struct argp_option running_options[] = {
       0 },
     { "shard-reference", KEY_SHARD_REFERENCE, "METHOD", 0,
       "its shortest case of each device and feed is measured in every shard; none; exact", 0 },
+    { "no-cache", KEY_NO_CACHE, NULL, 0,
+      "launches compile shaders and capture truths anew, and leave none for others; "
+      "FRAGMARK_CACHE=off does so for all commands",
+      0 },
     { "no-images", KEY_NO_IMAGES, NULL, 0, "keep no images", 0 },
     { "no-report", KEY_NO_REPORT, NULL, 0, "CSV files only; `fragmark report DIR` draws later", 0 },
     { "validation", KEY_VALIDATION, NULL, 0, "open devices with API validation (times suffer)", 0 },
@@ -217,6 +222,9 @@ static error_t parse_running(int key, char *text, struct argp_state *state)
         return 0;
     case KEY_NO_IMAGES:
         arguments->no_images = true;
+        return 0;
+    case KEY_NO_CACHE:
+        arguments->no_cache = true;
         return 0;
     case KEY_FRESH:
         arguments->fresh = true;

@@ -74,7 +74,8 @@ typedef struct fm_arguments {
     fm_shard_desc shard; /* count 0: the whole plan */
     uint32_t retried;    /* statuses, as bits */
     uint32_t kept;       /* kept_kind, as bits */
-    bool has_seed, no_images, no_report, validation, no_timers, quiet, json, smoke, large, fresh;
+    bool has_seed, no_images, no_cache, no_report, validation, no_timers, quiet, json;
+    bool smoke, large, fresh;
 } fm_arguments;
 
 /* Options that these subcommands have in common; children of their argp. */
@@ -155,6 +156,8 @@ int cli_run_plan(const fm_arguments *arguments, const cli_run_desc *desc);
 void cli_reasons(FILE *talk, const char *directory);
 /* -o, or out-UTC. */
 void cli_directory(char directory[FM_PATH_MAX_BYTES], const fm_arguments *arguments);
+/* The user's cache; "": none is to be used. */
+void cli_cache(char folder[FM_PATH_MAX_BYTES], const fm_arguments *arguments);
 /* DIR/specs: what was run, for the record. */
 void cli_keep_specs(const fm_text_list *paths, const char *directory);
 /* Adds a word, quoted where a shell needs it. */

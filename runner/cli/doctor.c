@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include "base/data.h"
+#include "cache/cache.h"
 #include "cli.h"
 #include "parent/machine.h"
 #include "scene/scene_file.h"
@@ -193,17 +194,33 @@ static json_t *figures_facts(void)
     return facts;
 }
 
+/* By kind, what there is of each. */
+static json_t *cache_facts(void)
+{
+    char folder[FM_PATH_MAX_BYTES];
+    json_t *kinds = json_object();
+    cache_find_folder(folder);
+    for (int kind = 0; kind < CACHE_KIND_COUNT && folder[0] != '\0'; kind++) {
+        const cache_size size = cache_measure(folder, (cache_kind)kind);
+        json_object_set_new(kinds, cache_kinds[kind].name,
+                            json_pack("{s:I, s:I, s:I}", "files", (json_int_t)size.files, "bytes",
+                                      (json_int_t)size.bytes, "most_bytes",
+                                      (json_int_t)cache_kinds[kind].most_bytes));
+    }
+    return json_pack("{s:s, s:o}", "folder", folder, "kinds", kinds);
+}
+
 static json_t *facts_json(const fm_device_list *devices)
 {
     char program[FM_PATH_MAX_BYTES] = "", report[FM_PATH_MAX_BYTES];
     json_t *methods = methods_facts(); /* before drivers have threads */
     if (data_program_folder(program, NULL) != FM_OK)
         snprintf(program, sizeof program, "unknown");
-    return json_pack("{s:s, s:o, s:o, s:b, s:s, s:o, s:o, s:o, s:s?}", "fragmark", FM_VERSION,
+    return json_pack("{s:s, s:o, s:o, s:b, s:s, s:o, s:o, s:o, s:o, s:s?}", "fragmark", FM_VERSION,
                      "machine", machine_facts(), "devices", devices_json(devices),
                      "validation_layer", (int)has_validation_layer(), "program", program, "methods",
-                     methods, "scenes", scenes_facts(), "figures", figures_facts(), "report",
-                     report_find(report) ? report : NULL);
+                     methods, "scenes", scenes_facts(), "figures", figures_facts(), "cache",
+                     cache_facts(), "report", report_find(report) ? report : NULL);
 }
 
 static const char *text_of(const json_t *object, const char *key)
@@ -284,6 +301,21 @@ static void write_found(FILE *out, const json_t *facts, const char *what)
         fprintf(out, "    refused: %s\n", json_string_value(message));
 }
 
+static void write_cache(FILE *out, const json_t *cache)
+{
+    const char *name;
+    json_t *kind;
+    if (text_of(cache, "folder")[0] == '\0') {
+        fprintf(out, "  cache     none\n");
+        return;
+    }
+    fprintf(out, "  cache     %s (may be removed at any time)\n", text_of(cache, "folder"));
+    json_object_foreach(json_object_get(cache, "kinds"), name, kind)
+        fprintf(out, "    %-11s %lld files, %.1f of at most %.0f MiB\n", name,
+                (long long)json_integer_value(json_object_get(kind, "files")),
+                1024.0 * gib_of(kind, "bytes"), 1024.0 * gib_of(kind, "most_bytes"));
+}
+
 static void write_facts(FILE *out, const json_t *facts)
 {
     size_t index;
@@ -293,6 +325,7 @@ static void write_facts(FILE *out, const json_t *facts)
     write_found(out, facts, "methods");
     write_found(out, facts, "scenes");
     write_found(out, facts, "figures");
+    write_cache(out, json_object_get(facts, "cache"));
     if (text_of(facts, "report")[0] != '\0')
         fprintf(out, "  report    %s\n", text_of(facts, "report"));
     else

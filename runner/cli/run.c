@@ -8,6 +8,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "cache/cache.h"
 #include "cli.h"
 #include "model/feeds.h"
 
@@ -44,6 +45,13 @@ void cli_directory(char directory[FM_PATH_MAX_BYTES], const fm_arguments *argume
     }
     gmtime_r(&now, &utc);
     strftime(directory, FM_PATH_MAX_BYTES, "out-%Y%m%dT%H%M%SZ", &utc);
+}
+
+void cli_cache(char folder[FM_PATH_MAX_BYTES], const fm_arguments *arguments)
+{
+    cache_find_folder(folder);
+    if (arguments->no_cache)
+        folder[0] = '\0';
 }
 
 void cli_keep_specs(const fm_text_list *paths, const char *directory)
@@ -181,6 +189,8 @@ int cli_run_plan(const fm_arguments *arguments, const cli_run_desc *desc)
 {
     fm_error err = { 0 };
     fm_run_result result = { 0 };
+    char cache[FM_PATH_MAX_BYTES];
+    cli_cache(cache, arguments);
     const fm_run_desc run = {
         .directory = desc->directory,
         .command = desc->command,
@@ -190,6 +200,7 @@ int cli_run_plan(const fm_arguments *arguments, const cli_run_desc *desc)
         .retried = arguments->retried,
         .kept = arguments->kept,
         .is_fresh = arguments->fresh,
+        .cache = cache,
         .timeout_s = arguments->timeout_s,
         .memory_bytes = arguments->memory_bytes,
         .progress = arguments->quiet ? NULL : arguments->cli->talk,

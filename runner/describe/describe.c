@@ -11,8 +11,8 @@
 
 #include "answer.h"
 #include "base/text.h"
-#include "cache.h"
 #include "process/process.h"
+#include "remembered.h"
 
 enum {
     BATCH = 64,      /* plugins that one process is asked for */
@@ -23,7 +23,7 @@ enum {
 typedef struct reading {
     const fm_plugin_list *list;
     const char *program;
-    cache cache;
+    fm_cache *cache;
     answer *answer; /* the one that is looked at */
     fm_error *err;
 } reading;
@@ -117,7 +117,7 @@ static fm_status fail_describing(const reading *of, const fm_process_end *end)
 }
 
 static fm_status take_answers(const reading *of, int file, const fm_process_end *end,
-                              fm_plugin_entry *const *entries, const cache_key *keys, size_t count)
+                              fm_plugin_entry *const *entries, const answer_key *keys, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
         answer_head *head = &of->answer->head;
@@ -132,13 +132,13 @@ static fm_status take_answers(const reading *of, int file, const fm_process_end 
             return fail_describing(of, end);
         if (!take_answer(entries[i], of))
             return FM_NO_MEMORY;
-        cache_write(&of->cache, entries[i]->path, &keys[i], of->answer);
+        remembered_write(of->cache, entries[i]->path, &keys[i], of->answer);
     }
     return FM_OK;
 }
 
 /* At most BATCH of them. */
-static fm_status ask(const reading *of, fm_plugin_entry *const *entries, const cache_key *keys,
+static fm_status ask(const reading *of, fm_plugin_entry *const *entries, const answer_key *keys,
                      size_t count)
 {
     char out[64];
@@ -165,12 +165,12 @@ static fm_status ask(const reading *of, fm_plugin_entry *const *entries, const c
 
 /* Takes what is remembered; what is not goes to the front of both lists. */
 static fm_status recall(size_t *unknown, const reading *of, fm_plugin_entry **entries,
-                        cache_key *keys, size_t count)
+                        answer_key *keys, size_t count)
 {
     *unknown = 0;
     for (size_t i = 0; i < count; i++) {
-        const cache_key key = cache_key_of(&of->cache, entries[i]->path);
-        if (cache_read(of->answer, &of->cache, entries[i]->path, &key)) {
+        const answer_key key = answer_key_of(of->cache, entries[i]->path);
+        if (remembered_read(of->answer, of->cache, &key)) {
             if (!take_answer(entries[i], of))
                 return FM_NO_MEMORY;
             continue;
@@ -181,15 +181,13 @@ static fm_status recall(size_t *unknown, const reading *of, fm_plugin_entry **en
     return FM_OK;
 }
 
-static fm_status read_all(const reading *of, fm_plugin_entry **entries, cache_key *keys,
+static fm_status read_all(const reading *of, fm_plugin_entry **entries, answer_key *keys,
                           size_t count)
 {
     size_t unknown;
     fm_status status = recall(&unknown, of, entries, keys, count);
     for (size_t i = 0; i < unknown && status == FM_OK; i += BATCH)
         status = ask(of, &entries[i], &keys[i], unknown - i < BATCH ? unknown - i : BATCH);
-    if (unknown > 0)
-        cache_prune(&of->cache);
     return status;
 }
 
@@ -198,18 +196,22 @@ fm_status describe_plugins(const fm_plugin_list *list, fm_plugin_entry *const *e
 {
     const fm_describer usual = { 0 };
     const fm_describer *desc = list->reader_context != NULL ? list->reader_context : &usual;
-    reading of = {
-        .list = list, .program = desc->program, .answer = malloc(sizeof *of.answer), .err = err
-    };
+    fm_cache cache;
+    const reading of = { .list = list,
+                         .program = desc->program,
+                         .cache = &cache,
+                         .answer = malloc(sizeof *of.answer),
+                         .err = err };
     fm_plugin_entry **unread = calloc(count + 1, sizeof *unread);
-    cache_key *keys = calloc(count + 1, sizeof *keys);
+    answer_key *keys = calloc(count + 1, sizeof *keys);
     fm_status status = FM_OK;
     if (of.answer == NULL || unread == NULL || keys == NULL) {
         status = fm_fail(err, FM_NO_MEMORY, "no memory for %zu plugins", count);
     } else {
         memcpy(unread, entries, count * sizeof *unread);
-        cache_open(&of.cache, desc->cache, of.program != NULL ? of.program : "/proc/self/exe");
+        remembered_open(&cache, desc->cache, of.program != NULL ? of.program : "/proc/self/exe");
         status = read_all(&of, unread, keys, count);
+        cache_close(&cache);
     }
     free(keys);
     free(unread);

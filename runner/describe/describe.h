@@ -2,7 +2,7 @@
  *
  * The room describe learns what is in plugins without loading them here: describe_child.c loads
  * them in processes of their own and describe.c asks it; description.h is a descriptor as bytes,
- * fields.h the table of its fields, cache.h remembers descriptions. A plugin that crashes, hangs,
+ * fields.h the table of its fields, remembered.h keeps descriptions. A plugin that crashes, hangs,
  * prints, forks or ends its process is refused with the reason, and costs nobody else anything.
  *
  * These processes hold faults off, not malice: a plugin runs with the user's rights, here and in
@@ -15,8 +15,8 @@
 /* What describe_plugins works with; zero is the default. */
 typedef struct fm_describer {
     const char *program; /* that describes; NULL: this one */
-    const char *cache;   /* folder of descriptions; NULL: fragmark/plugins in XDG_CACHE_HOME or
-                            ~/.cache; "": none. Where it cannot be used all is slower, not wrong */
+    const char *cache;   /* folder of a cache (cache/cache.h) that keeps descriptions; NULL: the
+                            user's; "": none. Where it cannot be used all is slower, not wrong */
 } fm_describer;
 
 /* The reader of lists whose plugins are not to run here; list->reader_context is an fm_describer,

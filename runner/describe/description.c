@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "code/code.h"
 #include "fields.h"
 #include "fragmark/technique.h"
 #include "plugin/plugin.h"
@@ -107,6 +108,26 @@ fm_status description_write(fm_text *bytes, const fm_method_desc *method, fm_err
         return fm_fail(err, FM_INVALID, "a descriptor of %zu bytes, %d at most", bytes->length,
                        FM_DESCRIPTION_MAX_BYTES);
     return status;
+}
+
+/* All that write_struct and read_struct look at. */
+static uint64_t hash_layout(uint64_t hash, const fm_layout *layout)
+{
+    for (size_t i = 0; i < layout->count; i++) {
+        const fm_field *field = &layout->fields[i];
+        const uint64_t facts[] = { hash, (uint64_t)field->kind, field->unit_bytes, field->count,
+                                   code_hash(field->name, strlen(field->name)) };
+        hash = code_hash(facts, sizeof facts);
+        if (field->inside != NULL)
+            hash = hash_layout(hash, field->inside);
+    }
+    return hash;
+}
+
+uint64_t description_form(void)
+{
+    const uint64_t facts[] = { FM_ABI, FM_DESCRIPTION_MAX_BYTES };
+    return hash_layout(code_hash(facts, sizeof facts), &method_layout);
 }
 
 /* What is still to be read, and where the one technique goes. */

@@ -14,6 +14,9 @@
 
 enum { FM_DESCRIPTION_MAX_BYTES = 1 << 18 }; /* longer ones are neither written nor read */
 
+/* A hash of how this program writes them: programs of one form read one another's. */
+uint64_t description_form(void);
+
 /* Adds the description of a descriptor that plugin_check took to an empty text. Texts are copied;
  * of a hook only whether there is one. FM_INVALID: its texts are too long, or have no end. */
 fm_status description_write(fm_text *bytes, const fm_method_desc *method, fm_error *err);

@@ -36,8 +36,10 @@
 #include <stdint.h>
 
 #include "base/error.h"
+#include "cache/cache.h"
 #include "fragmark/method.h" /* formats, elements, fixed-function state, FM_FEATURE_*, FM_FEED_* */
 #include "ledger.h"
+#include "spirv/accesses.h"
 
 typedef struct fm_device fm_device;                 /* an open device; see the end of this file */
 typedef struct fm_buffer fm_buffer;                 /* bytes on the device */
@@ -56,7 +58,7 @@ enum {
 typedef struct fm_device_caps {
     char name[128];         /* "llvmpipe (LLVM 15.0.6, 256 bits)", "NVIDIA H100 80GB HBM3" */
     char driver[128];       /* name and version */
-    char api[64];           /* "Vulkan 1.3.230", "OpenGL 4.5 (core)" */
+    char api[64];           /* "Vulkan 1.3.230", "OpenGL 4.5 (core)"; "none": nothing is drawn */
     char driver_build[160]; /* what tells this build of the driver from all others; "": it is a part
                                of the program */
     uint32_t features;      /* FM_FEATURE_* bits of what shaders may use */
@@ -64,6 +66,7 @@ typedef struct fm_device_caps {
     bool has_gpu_clock;     /* its clock falls when idle: empty timers show by how much */
     bool needs_helper_guard;  /* helper lanes reach atomics: shaders leave before any lock */
     bool needs_lock_barriers; /* memory barriers around a lock's section are needed (and work) */
+    bool counts_accesses;     /* fm_pipeline_desc.counting can be */
     bool has_memory_model;    /* shaders may use Vulkan's, with the scope of the whole device */
     uint32_t loop_limit;      /* most iterations of all loops of an invocation, after which they end
                                  without a word; 0: none */
@@ -86,6 +89,7 @@ typedef struct fm_device_desc {
     bool validation;      /* API validation, on Vulkan with synchronization checks; FM_UNSUPPORTED
                              where it is not installed */
     bool no_timers;       /* timers do nothing, so that barriers come from accesses alone */
+    fm_cache *cache;      /* of compiled shaders; lives as long as the device; NULL: none */
 } fm_device_desc;
 
 /* One line of `fragmark list devices`. */
@@ -168,6 +172,9 @@ typedef struct fm_pipeline_desc {
     uint32_t attribute_count;
     fm_pipeline_binding bindings[FM_MAX_BINDINGS]; /* each number once */
     uint32_t binding_count;
+    const spirv_counting *counting; /* the compute or fragment shader counts its accesses of these
+                                       resources, into a buffer that is among the bindings; NULL:
+                                       it does not */
 } fm_pipeline_desc;
 
 /* What shaders of a command do with a resource; 0: nothing that a barrier has to know. */
@@ -266,7 +273,7 @@ typedef struct fm_device_ops {
 
     /* Compiles. FM_SHADER: the compiler's message, with the line of the GLSL it speaks of quoted.
      * FM_UNSUPPORTED: more bindings or targets than a shader can have here, a blended format that
-     * cannot be, or a driver that gives up on the shader. */
+     * cannot be, a driver that gives up on the shader, or accesses that cannot be counted. */
     fm_status (*pipeline_create)(fm_pipeline **pipeline, fm_device *device,
                                  const fm_pipeline_desc *desc, fm_error *err);
     void (*pipeline_destroy)(fm_device *device, fm_pipeline *pipeline);

@@ -74,3 +74,17 @@ void library_build(char *build, size_t room_bytes, uintptr_t address)
     build[0] = '\0';
     dl_iterate_phdr(look_at, &wanted);
 }
+
+/* The program's own devices are as it is. */
+uint64_t device_build_hash(const fm_device_caps *caps, uint64_t program)
+{
+    const char *const texts[] = { caps->driver_build, caps->name, caps->driver, caps->api };
+    uint64_t mixed = 0;
+    if (caps->driver_build[0] == '\0')
+        return program;
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
+        const uint64_t both[] = { mixed, code_hash(texts[i], strlen(texts[i])) };
+        mixed = code_hash(both, sizeof both);
+    }
+    return mixed;
+}

@@ -146,6 +146,8 @@ fm_status instance_create(fm_instance **out, const fm_instance_desc *desc, fm_er
     if (status == FM_OK)
         status =
             instance->device->ops->buffer_create(&instance->table, instance->device, &table, err);
+    if (status == FM_OK)
+        status = counts_create(instance, err);
     if (status == FM_OK && instance->emits_back && !desc->is_capture)
         status = stage_create_back(desc->stage, err);
     if (status == FM_OK)
@@ -165,6 +167,7 @@ void instance_destroy(fm_instance *instance)
         return;
     passes_destroy(instance);
     resources_destroy(instance);
+    instance->device->ops->buffer_destroy(instance->device, instance->counters);
     instance->device->ops->buffer_destroy(instance->device, instance->table);
     free(instance);
 }

@@ -23,6 +23,8 @@ typedef struct fm_instance_desc {
     uint64_t fragments, fragments_kept; /* F and F_k of the scene, for formulas */
     bool is_capture;
     uint32_t capture_slots; /* fragments a pixel that the checked build has room for */
+    bool counts_accesses;   /* shaders count what they do with the method's memory, which takes
+                               time: for builds that are not timed */
     bool hashes_image;      /* instance_image_hash will be called */
     bool wants_primitive;   /* shaders see fm_primitive, the number of the triangle */
     fm_hook_mark *mark;     /* told where the method's hook is called; NULL: nobody asks */
@@ -48,6 +50,15 @@ typedef struct fm_frame_result {
     uint32_t redos;        /* frames done again because something had to grow */
     uint64_t redone_ns;    /* of all passes of those frames; in no pass_ns, nor in span_ns */
 } fm_frame_result;
+
+/* What passes do with one of the method's resources in a frame. Attachments of draws and the
+ * runner's own resources are not in it. */
+typedef struct fm_accesses {
+    uint64_t loaded,
+        stored;       /* bytes, by shaders; fills and clears of clear passes are stored, too */
+    uint64_t atomics; /* whose bytes are loaded and stored */
+    uint64_t outside; /* accesses of elements that the resource does not have */
+} fm_accesses;
 
 /* Of all passes together: their sum, or the span. */
 uint64_t frame_passes_ns(const fm_frame_result *result);
@@ -88,6 +99,13 @@ uint64_t instance_bytes_predicted(const fm_instance *instance);
 uint64_t instance_bytes_used(const fm_instance *instance, uint64_t fragments_kept);
 /* The k of the last frame, where the method chooses it; 0: it does not. */
 uint64_t instance_k_chosen(const fm_instance *instance);
+/* Of the last frame of a build that counts: what was done with resource `index`, or with the spin
+ * locks where that is the number of resources. *name lives as long as the instance. false: there is
+ * no such resource, or nothing was counted. */
+bool instance_accesses(fm_accesses *accesses, const char **name, const fm_instance *instance,
+                       size_t index);
+/* Why a build that was to count does not, although its device can; "": no such reason. */
+const char *instance_uncounted(const fm_instance *instance);
 /* The resource of this name; its buffer may be read between frames. NULL: none. */
 fm_slot *instance_slot(fm_instance *instance, const char *name);
 

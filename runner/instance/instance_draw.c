@@ -36,6 +36,11 @@ static uint32_t collect_binds(fm_bind binds[FM_MAX_BINDINGS], fm_instance *insta
         else
             bind->kind = slot->by_address ? FM_BINDING_ADDRESS : FM_BINDING_STORAGE;
     }
+    if (built->counts)
+        binds[count++] = (fm_bind){ .binding = counts_binding(built),
+                                    .kind = FM_BINDING_STORAGE,
+                                    .buffer = instance->counters,
+                                    .access = FM_ACCESS_READ | FM_ACCESS_WRITE };
     return count;
 }
 
@@ -137,6 +142,7 @@ static void clear_pass(fm_instance *instance, const fm_pass *pass)
                                      resource->clear_stencil);
         else if (slot->buffer != NULL)
             device->ops->fill(device, slot->buffer, pass->clear_word);
+        counts_add_fill(instance, (size_t)ref.index);
     }
 }
 

@@ -40,6 +40,7 @@ static fm_status start(frame_run *frame)
     device->ops->fill(device, instance->desc.stage->slots[STAGE_COUNTERS].buffer, 0);
     if (instance->desc.is_capture)
         device->ops->fill(device, instance->desc.stage->slots[STAGE_CAPTURE_COUNTS].buffer, 0);
+    counts_begin(instance);
     device->ops->timer_begin(device, CANARY_TIMER);
     device->ops->timer_end(device, CANARY_TIMER);
     return FM_OK;
@@ -140,7 +141,9 @@ fm_status instance_frame(fm_frame_result *result, fm_instance *instance, const f
         status = run_once(&frame);
     }
     result->wall_ns = clock_ns() - started_ns;
-    return status == FM_OK ? read_counters(&frame) : status;
+    if (status == FM_OK)
+        status = read_counters(&frame);
+    return status == FM_OK ? counts_read(instance, err) : status;
 }
 
 bool instance_can_emit_again(const fm_instance *instance)

@@ -6,6 +6,7 @@
  *   instance_passes.c      its pipelines
  *   instance_resources.c   buffers, images, locks and the table of lengths
  *   instance_bytes.c       how many bytes they are
+ *   instance_counts.c      what shaders do with them, counted
  *   instance_draw.c        one pass of a frame that is being recorded
  *   instance_frame.c       frames
  *   instance.c             set-up and its end */
@@ -36,6 +37,7 @@ typedef struct built_pass {
     uint32_t pipeline_count;
     bool is_drawn;    /* a draw; else a dispatch */
     bool is_overfull; /* uses more than there is room for */
+    bool counts;      /* its accesses; one binding more */
 } built_pass;
 
 struct fm_instance {
@@ -58,7 +60,11 @@ struct fm_instance {
     size_t pass_count, resource_count, total_count;
     bool is_spin_locked;
     bool emits_back;
-    built_pass combine, hash; /* of the runner's own passes, below */
+    built_pass combine, hash;                   /* of the runner's own passes, below */
+    fm_buffer *counters;                        /* of accesses; NULL: they are not counted */
+    char uncounted[256];                        /* why they are not, although the device can */
+    uint64_t filled[FM_MAX_RESOURCES];          /* bytes, by clear passes of the running frame */
+    fm_accesses accesses[FM_MAX_RESOURCES + 1]; /* of the last frame; the locks' behind the last */
 };
 
 /* instance_resources.c */
@@ -146,6 +152,24 @@ void passes_destroy(fm_instance *instance);
 
 /* instance_bytes.c: of the spin locks; 0 without them. */
 uint64_t lock_bytes(const fm_instance *instance);
+
+/* instance_counts.c. What a pipeline is told of the resources whose accesses it counts. */
+typedef struct pass_counting {
+    spirv_counting desc;
+    spirv_resource resources[2 * FM_MAX_RESOURCES + 1];
+} pass_counting;
+fm_status counts_create(fm_instance *instance, fm_error *err);
+/* false: the pass is not to count. */
+bool counts_describe(pass_counting *counting, const fm_instance *instance, const built_pass *built);
+/* Where a pass that counts finds the counters: behind its other bindings. */
+static inline uint32_t counts_binding(const built_pass *built)
+{
+    return SHADER_BINDING_FIRST + (uint32_t)built->use_count;
+}
+/* Around a frame: a recording is open when it begins, and none when it is read. */
+void counts_begin(fm_instance *instance);
+void counts_add_fill(fm_instance *instance, size_t index);
+fm_status counts_read(fm_instance *instance, fm_error *err);
 
 /* instance_draw.c. The frame is being recorded. */
 fm_status pass_issue(fm_instance *instance, size_t index, uint32_t iteration, fm_error *err);

@@ -79,6 +79,59 @@ static uint32_t pipeline_count(const fm_instance *instance, const fm_pass *pass)
     return count > 0 ? count : 1;
 }
 
+static void destroy_pipelines(built_pass *built, const fm_instance *instance)
+{
+    for (uint32_t i = 0; built->pipelines != NULL && i < built->pipeline_count; i++)
+        instance->device->ops->pipeline_destroy(instance->device, built->pipelines[i]);
+    free(built->pipelines);
+    built->pipelines = NULL;
+}
+
+/* One pipeline, or one an iteration. */
+static fm_status compile(built_pass *built, const fm_instance *instance, fm_pipeline_desc *desc,
+                         fm_error *err)
+{
+    fm_status status = FM_OK;
+    built->pipelines = calloc(built->pipeline_count, sizeof(fm_pipeline *));
+    if (built->pipelines == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "%s: pipelines", desc->name);
+    for (uint32_t i = 0; i < built->pipeline_count && status == FM_OK; i++) {
+        desc->iteration = i;
+        status = instance->device->ops->pipeline_create(&built->pipelines[i], instance->device,
+                                                        desc, err);
+    }
+    return status;
+}
+
+/* A pass whose accesses cannot be counted is built without, and the instance says why. */
+static fm_status compile_counting(built_pass *built, fm_instance *instance, fm_pipeline_desc *desc,
+                                  fm_error *err)
+{
+    pass_counting counting;
+    fm_error refusal = { 0 };
+    if (!counts_describe(&counting, instance, built))
+        return compile(built, instance, desc, err);
+    built->counts = built->use_count < INSTANCE_USES_MAX;
+    fm_pipeline_desc counted = *desc;
+    counted.counting = &counting.desc;
+    if (built->counts)
+        counted.bindings[counted.binding_count++] =
+            (fm_pipeline_binding){ counts_binding(built), FM_BINDING_STORAGE };
+    fm_status status = built->counts
+                           ? compile(built, instance, &counted, &refusal)
+                           : fm_refuse(&refusal, FM_REASON_SUITE_LIMIT,
+                                       "%s: no binding is left to count accesses", desc->name);
+    if (status != FM_UNSUPPORTED) {
+        if (status != FM_OK && err != NULL)
+            *err = refusal;
+        return status;
+    }
+    snprintf(instance->uncounted, sizeof instance->uncounted, "%.255s", refusal.message);
+    destroy_pipelines(built, instance);
+    built->counts = false;
+    return compile(built, instance, desc, err);
+}
+
 static fm_status create_pipelines(built_pass *built, fm_instance *instance, const fm_pass *pass,
                                   fm_error *err)
 {
@@ -101,14 +154,7 @@ static fm_status create_pipelines(built_pass *built, fm_instance *instance, cons
             stage_vertex_layout(&desc, instance->desc.stage, pass_geometry(instance, pass));
     }
     built->pipeline_count = pipeline_count(instance, pass);
-    built->pipelines = calloc(built->pipeline_count, sizeof(fm_pipeline *));
-    if (built->pipelines == NULL)
-        status = fm_fail(err, FM_NO_MEMORY, "%s: pipelines", name);
-    for (uint32_t i = 0; i < built->pipeline_count && status == FM_OK; i++) {
-        desc.iteration = i;
-        status = instance->device->ops->pipeline_create(&built->pipelines[i], instance->device,
-                                                        &desc, err);
-    }
+    status = compile_counting(built, instance, &desc, err);
 out:
     text_free(&source);
     text_free(&vertex);
@@ -173,9 +219,7 @@ fm_status passes_create(fm_instance *instance, fm_error *err)
 
 static void destroy_pass(fm_instance *instance, built_pass *built)
 {
-    for (uint32_t i = 0; built->pipelines != NULL && i < built->pipeline_count; i++)
-        instance->device->ops->pipeline_destroy(instance->device, built->pipelines[i]);
-    free(built->pipelines);
+    destroy_pipelines(built, instance);
     *built = (built_pass){ 0 };
 }
 

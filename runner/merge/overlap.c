@@ -28,6 +28,7 @@ static bool fact_repeats(fm_fact fact)
     case FM_FACT_DEVICE_NAME:
     case FM_FACT_CODE_DRIVER:
     case FM_FACT_NOISY:
+    case FM_FACT_LIMITED_BY: /* hangs on times */
     case FM_FACT_COUNT:
         break;
     }

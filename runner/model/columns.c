@@ -117,6 +117,16 @@ const fm_column fm_columns[] = {
     METRIC(DISTINCT_FRAGMENTS),
     METRIC(MISSING_MAX),
     FACT(REASON),
+    METRIC(BYTES_MOVED),
+    METRIC(ATOMICS),
+    METRIC(BOUND_MS),
+    ENDS(BOUND_MS, "bound_ms"),
+    METRIC(TIMES_BOUND),
+    ENDS(TIMES_BOUND, "times_bound"),
+    FACT(LIMITED_BY),
+    METRIC(DEVICE_BYTES_PER_S),
+    METRIC(DEVICE_ATOMICS_PER_S),
+    METRIC(DEVICE_FRAGMENTS_PER_S),
 };
 /* clang-format on */
 _Static_assert(sizeof fm_columns / sizeof fm_columns[0] == FM_COLUMN_COUNT, "FM_COLUMN_COUNT");
@@ -139,6 +149,7 @@ static const char *const fact_name[] = {
     [FM_FACT_CODE_PLUGIN] = "code_plugin",
     [FM_FACT_CODE_SHADERS] = "code_shaders",
     [FM_FACT_REASON] = "reason",
+    [FM_FACT_LIMITED_BY] = "limited_by",
 };
 _Static_assert(sizeof fact_name / sizeof fact_name[0] == FM_FACT_COUNT, "one name a fact");
 

@@ -30,6 +30,8 @@ typedef enum fm_fact {
     FM_FACT_NOISY,        /* why its times are not to be relied on; empty: no reason is known */
     FM_FACT_REASON,       /* case_reason_name of a case that is not_supported; empty: of others,
                              and of older runs */
+    FM_FACT_LIMITED_BY,   /* feed, bytes or atomics: what takes the device longest (bound/bound.h);
+                             empty: not known */
     FM_FACT_COUNT
 } fm_fact;
 
@@ -51,7 +53,7 @@ typedef struct fm_column {
 } fm_column;
 
 enum {
-    FM_COLUMN_COUNT = 104,
+    FM_COLUMN_COUNT = 116,
     FM_COLUMN_REQUIRED =
         51 /* the first of them: files of schema 1 have these, later ones may lack */
 };

@@ -14,7 +14,7 @@ typedef enum fm_exit_code {
                                 missing, and the others were merged */
     FM_EXIT_OTHER_CODE = 7,  /* rows were begun with other code than is here now; or runs do not
                                 compare: milliseconds of two machines, no case in both, shards of
-                                two programs */
+                                two programs, a build of another version */
     FM_EXIT_DAMAGED = 8, /* a damaged or foreign file, or one that is gone: nothing was replaced */
 } fm_exit_code;
 

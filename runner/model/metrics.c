@@ -60,6 +60,16 @@ const fm_metric_info fm_metrics[FM_METRIC_COUNT] = {
         "what the descriptor's formula says", CASE, LESS, BYTES },
     [FM_METRIC_BYTES_USED] = { "bytes_used", "memory, used", "B",
         "bytes of elements that hold something in a frame", CASE, LESS, BYTES },
+    [FM_METRIC_BYTES_MOVED] = { "bytes_moved", "bytes moved", "B",
+        "bytes of the method's memory that the shaders of a frame load and store, counted in the checked "
+        "build, and those that its clear passes fill; an atomic loads and stores its operand. Attachments "
+        "of draws are not in it, nor the image. Empty on devices that do not count: all but vulkan",
+        CASE, LESS, MEASURED, WHOLE },
+    [FM_METRIC_ATOMICS] = { "atomics", "atomics", "", "of those accesses, the atomics", CASE, LESS,
+        MEASURED, WHOLE },
+    [FM_METRIC_ACCESSES_OUTSIDE] = { "accesses_outside", "accesses out of range", "",
+        "of those accesses, the ones of elements that the buffer or image does not have; the message names "
+        "it", CASE, LESS, MEASURED, WHOLE },
     [FM_METRIC_N] = { "n", "n", "", "the most fragments of any pixel: of layers as many as the recipe has, else as truth counted", CASE, WHOLE },
     [FM_METRIC_FRAGMENTS_GENERATED] = { "fragments_generated", "fragments", "",
         "all fragments of the scene", CASE, WHOLE },
@@ -209,6 +219,21 @@ const fm_metric_info fm_metrics[FM_METRIC_COUNT] = {
         TIMED },
     [FM_METRIC_FRAGMENTS_PER_S] = { "fragments_per_s", "fragments/s", "1/s",
         "fragments_generated over frame_ms", SUMMARY, MORE, TIMED },
+    [FM_METRIC_BOUND_MS] = { "bound_ms", "bound", "ms",
+        "the least time for the case on this device: floor_frame_ms, or what copying (8 "
+        "fragments_generated + 16 fragments_wanted + 16 pixels) bytes takes at device_bytes_per_s if "
+        "that is longer; launch by launch, their median", SUMMARY, LESS, TIMED },
+    [FM_METRIC_TIMES_BOUND] = { "times_bound", "x bound", "",
+        "frame_ms over bound_ms of the same launch, median of the launches", SUMMARY, LESS, TIMED },
+    [FM_METRIC_DEVICE_BYTES_PER_S] = { "device_bytes_per_s", "device, bytes", "B/s",
+        "bytes that the device reads and writes in a second when it copies large buffers, as `fragmark "
+        "calibrate device` measured it; empty without", SUMMARY, MORE, MEASURED },
+    [FM_METRIC_DEVICE_ATOMICS_PER_S] = { "device_atomics_per_s", "device, atomics", "1/s",
+        "atomics of 32 bits that it does in a second if each invocation has a word of its own; the same",
+        SUMMARY, MORE, MEASURED },
+    [FM_METRIC_DEVICE_FRAGMENTS_PER_S] = { "device_fragments_per_s", "device, fragments", "1/s",
+        "fragments of flat layers that it rasterises in a second for the floor; the same", SUMMARY,
+        MORE, MEASURED },
     [FM_METRIC_LAUNCHES] = { "launches", "launches", "", "processes that measured the case", SUMMARY, WHOLE },
     [FM_METRIC_SAMPLES] = { "samples", "samples", "", "timed frames that count, of all launches",
         SUMMARY, MEASURED, WHOLE },
@@ -265,6 +290,15 @@ const fm_metric_info fm_metrics[FM_METRIC_COUNT] = {
 const fm_metric_family fm_metric_families[FM_METRIC_FAMILY_COUNT] = {
     { "pass.", "_ms", { "pass.NAME_ms", "pass NAME", "ms", "a pass of the method's own", FRAME, LESS,
         TIMED } },
+    { "moved.", "_b", { "moved.RESOURCE_b", "bytes moved, RESOURCE", "B",
+        "bytes_moved of one buffer or image of the method, or of its locks (fm_locks)", CASE, LESS,
+        MEASURED, WHOLE } },
+    { "launch.", "_ms", { "launch.PART_ms", "launch, PART", "ms", "where a launch's time goes, by the "
+        "host's clock: start (loading the program, by processor time; plugins, device), scene (scene and truth "
+        "loaded), compile (GLSL and pipelines; what a driver compiles at a first frame is warmup's and floor's), "
+        "warmup, frames (the method's), floor (all frames of the floor), images (hashing and comparing them), "
+        "check (capturing and comparing fragments), errors (of the checked image), end (writing images)",
+        LAUNCH, LESS, TIMED } },
     { "energy_corner.", "_nj", { "energy_corner.CORNER_nj", "energy at CORNER", "nJ",
         "modelled energy with every uncertain parameter at one end of its range", CASE, LESS } },
     { "energy.", "_nj", { "energy.PART_nj", "energy, PART", "nJ", "modelled energy of a part of the GPU",

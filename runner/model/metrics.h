@@ -29,6 +29,9 @@ typedef enum fm_metric {
     FM_METRIC_BYTES_ALLOCATED,
     FM_METRIC_BYTES_PREDICTED,
     FM_METRIC_BYTES_USED,
+    FM_METRIC_BYTES_MOVED,
+    FM_METRIC_ATOMICS,
+    FM_METRIC_ACCESSES_OUTSIDE,
     /* its fragments */
     FM_METRIC_N,
     FM_METRIC_FRAGMENTS_GENERATED,
@@ -96,6 +99,11 @@ typedef enum fm_metric {
     /* what follows from times */
     FM_METRIC_TIMES_FLOOR,
     FM_METRIC_FRAGMENTS_PER_S,
+    FM_METRIC_BOUND_MS,
+    FM_METRIC_TIMES_BOUND,
+    FM_METRIC_DEVICE_BYTES_PER_S,
+    FM_METRIC_DEVICE_ATOMICS_PER_S,
+    FM_METRIC_DEVICE_FRAGMENTS_PER_S,
     FM_METRIC_LAUNCHES,
     FM_METRIC_SAMPLES,
     FM_METRIC_FPS,
@@ -181,7 +189,7 @@ typedef struct fm_metric_family {
     const char *prefix, *suffix;
     fm_metric_info info; /* name: "pass.NAME_ms" */
 } fm_metric_family;
-enum { FM_METRIC_FAMILY_COUNT = 6 };
+enum { FM_METRIC_FAMILY_COUNT = 8 };
 extern const fm_metric_family fm_metric_families[FM_METRIC_FAMILY_COUNT];
 
 /* A case of which fewer samples are left, because others were off full clock, is unclear. */

@@ -3,8 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-static const double share_for_launches = 0.9; /* of the budget; the rest draws and judges */
-
 static uint32_t at_least(uint32_t value, uint32_t least)
 {
     return value > least ? value : least;
@@ -30,11 +28,13 @@ static fm_status take_part(fm_night_state *night, const fm_text_list *methods,
     return FM_OK;
 }
 
-fm_status choose_tonight(fm_night_state *night, const fm_policy *policy, const fm_night_past *past,
-                         const fm_plan *plan, double round_s, fm_error *err)
+/* Launches of each case, or a part of the methods. */
+static fm_status choose_part(fm_night_state *night, const fm_policy *policy,
+                             const fm_night_past *past, const fm_plan *plan, double round_s,
+                             fm_error *err)
 {
     fm_text_list methods = { 0 };
-    const double seconds = share_for_launches * 60.0 * policy->budget_minutes;
+    const double seconds = policy_launch_share(policy) * policy_seconds(policy, night->built_s);
     if (past->seconds_per_round > 0)
         round_s = past->seconds_per_round * past->parts;
     const double rounds = fmin(floor(seconds / fmax(round_s, 1e-3)), policy->launches_most);
@@ -56,5 +56,24 @@ fm_status choose_tonight(fm_night_state *night, const fm_policy *policy, const f
         status = take_part(night, &methods, policy->reference, err);
     }
     text_list_free(&methods);
+    return status;
+}
+
+/* Cases of tonight's methods that are to run. */
+static void count_cases(fm_night_state *night, const fm_plan *plan)
+{
+    night->cases = 0;
+    for (size_t i = 0; i < plan->count; i++)
+        night->cases +=
+            plan->cases[i].skip == NULL &&
+            (night->methods.count == 0 || text_list_has(&night->methods, plan->cases[i].method));
+}
+
+fm_status choose_tonight(fm_night_state *night, const fm_policy *policy, const fm_night_past *past,
+                         const fm_plan *plan, double round_s, fm_error *err)
+{
+    const fm_status status = choose_part(night, policy, past, plan, round_s, err);
+    if (status == FM_OK)
+        count_cases(night, plan);
     return status;
 }

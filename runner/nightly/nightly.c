@@ -11,7 +11,9 @@
 
 #include "base/clock.h"
 #include "base/state.h"
+#include "build.h"
 #include "choose.h"
+#include "confirm.h"
 #include "plan/cost.h"
 #include "stages.h"
 
@@ -89,6 +91,8 @@ static const struct argp argp = {
            "  axes: []               # such as [\"k=4,8\", \"n=32\"]\n"
            "  spec: other.yml        # a spec of `fragmark run`; lists stand over it\n"
            "  plugin_dirs: []        # builds of methods, such as [build/methods]\n"
+           "  build: []              # executed first, such as [cmake, --build, build]\n"
+           "  base: old              # an earlier build: what is slower is held against it\n"
            "  budget_minutes: 10\n"
            "  launches_least: 3      # of each case; below it methods take turns\n"
            "  launches_most: 40\n"
@@ -97,15 +101,20 @@ static const struct argp argp = {
            "  baseline: release-1    # `fragmark baseline set release-1 DIR`\n"
            "  output: nights\n"
            "  state: state\n\n"
+           "build is executed without a shell, in the policy's folder, for half of the budget at "
+           "most; its output is DIR/UTC/build.log. If it fails the night ends with exit code 3. "
+           "With a base (a build, whose own program then measures it, or a folder of methods) "
+           "`fragmark gate` measures what was found slower again, in what is left of the budget: "
+           "an alarm that it does not confirm is none. Without one such alarms are unconfirmed.\n\n"
            "Without a policy all methods are measured on layers of 214 x 120 pixels, n 32.\n\n"
            "Examples:\n"
            "  fragmark nightly\n"
            "  fragmark nightly policy.yml -o /srv/nights --budget 60\n\n"
            "Exit codes: 0 quiet; 1 alarm: something is slower, takes more memory, is less right, "
-           "or fails and did not; 2 usage or policy error; 3 nothing could be measured; 4 cases "
-           "failed in a first night; 5 the world stopped it, or another nightly is at work: the "
-           "same command continues; 7 plugins or programs changed while it measured; 8 a damaged "
-           "history or baseline.",
+           "or fails and did not; 2 usage or policy error; 3 nothing could be built or measured; "
+           "4 cases failed in a first night; 5 the world stopped it, or another nightly is at "
+           "work: the same command continues; 7 plugins or programs changed while it measured; "
+           "8 a damaged history or baseline.",
 };
 
 /* Folders of the policy, and what stands over them. */
@@ -161,8 +170,7 @@ static fm_status find_unfinished(bool *is_found, fm_tonight *tonight, const char
     if (status == FM_OK && names.count > 0)
         status = path_join(folder, root, names.items[names.count - 1], err);
     if (status == FM_OK && names.count > 0 && night_state_read(night, folder, NULL) == FM_OK)
-        *is_found = (night->stage == FM_NIGHT_MEASURES || night->stage == FM_NIGHT_JUDGES) &&
-                    strcmp(night->policy, tonight->policy->hash) == 0 &&
+        *is_found = night_is_open(night) && strcmp(night->policy, tonight->policy->hash) == 0 &&
                     (int64_t)time(NULL) - night->begun_s < CONTINUE_S;
     if (!*is_found) {
         night_state_free(night);
@@ -230,11 +238,17 @@ static fm_status make_folder(fm_night_state *night, const char *root, time_t now
 
 static fm_status begin_night(fm_tonight *tonight, const char *root, fm_error *err)
 {
+    char command[FM_PATH_MAX_BYTES];
     fm_night_state *night = &tonight->night;
+    const bool is_built = tonight->policy->build.count > 0;
     const time_t now = time(NULL);
-    night->begun_s = (int64_t)now;
+    *night = (fm_night_state){ .stage = is_built ? FM_NIGHT_BUILDS : FM_NIGHT_MEASURES,
+                               .begun_s = (int64_t)now,
+                               .launches = tonight->policy->launches_least,
+                               .parts = 1 };
     strcpy(night->policy, tonight->policy->hash);
-    fm_status status = plan_night(tonight, root, err);
+    fm_status status = is_built ? build_find_command(command, tonight->policy, err)
+                                : plan_night(tonight, root, err);
     if (status != FM_OK)
         return status;
     status = make_folder(night, root, now, err);
@@ -262,15 +276,97 @@ static int fail(const fm_tonight *tonight, fm_status status, const fm_error *err
     return status == FM_UNSUPPORTED ? CLI_NOTHING : CLI_INCOMPLETE;
 }
 
-static void tell(const fm_tonight *tonight)
+static void tell_plan(const fm_tonight *tonight)
 {
     const fm_night_state *night = &tonight->night;
-    fprintf(tonight->cli->talk, "%s %s: %u launches of each case, for %.3g minutes\n",
-            tonight->is_continued ? "continues" : "begins", night->folder, night->launches,
+    fprintf(tonight->cli->talk, "%u launches of each case, for %.3g minutes\n", night->launches,
             tonight->policy->budget_minutes);
     if (night->parts > 1)
         fprintf(tonight->cli->talk, "not all methods fit: part %u of %u\n", night->part + 1,
                 night->parts);
+}
+
+/* The path of this program, if another one lies there now: it was built anew. */
+static bool find_newer(char path[FM_PATH_MAX_BYTES])
+{
+    static const char gone[] = " (deleted)";
+    struct stat own, there;
+    const ssize_t length = readlink("/proc/self/exe", path, FM_PATH_MAX_BYTES - 1);
+    if (length <= 0 || stat("/proc/self/exe", &own) != 0)
+        return false;
+    path[length] = '\0';
+    char *end = path + length - (sizeof gone - 1);
+    if (end > path && strcmp(end, gone) == 0)
+        *end = '\0';
+    return stat(path, &there) == 0 && access(path, X_OK) == 0 &&
+           (there.st_ino != own.st_ino || there.st_dev != own.st_dev);
+}
+
+/* What was built is to be measured, and that may be this program. The next one finds the night as
+ * it is left here. */
+static fm_status become_newer(fm_tonight *tonight, fm_error *err)
+{
+    char path[FM_PATH_MAX_BYTES];
+    if (!find_newer(path))
+        return FM_OK;
+    fprintf(tonight->cli->talk, "this program was built, too: the new one goes on\n");
+    fflush(NULL);
+    execv(path, (char *const *)(const void *)tonight->argv);
+    return fm_fail(err, FM_IO, "%s: %s", path, strerror(errno));
+}
+
+static fm_status build(int *code, fm_tonight *tonight, fm_error *err)
+{
+    fm_status status = stage_build(tonight, err);
+    if (tonight->night.stage == FM_NIGHT_GIVEN_UP)
+        *code = CLI_NOTHING;
+    else if (status == FM_OK)
+        status = become_newer(tonight, err);
+    return status;
+}
+
+/* Of a night that was built: what cannot be planned is given up, since the next build may be right.
+ */
+static fm_status plan_built(fm_tonight *tonight, const char *root, fm_error *err)
+{
+    fm_night_state *night = &tonight->night;
+    const fm_status status = plan_night(tonight, root, err);
+    night->stage = status == FM_OK ? FM_NIGHT_MEASURES : FM_NIGHT_GIVEN_UP;
+    const fm_status written = night_state_write(night, status == FM_OK ? err : NULL);
+    if (status == FM_OK && written == FM_OK)
+        tell_plan(tonight);
+    return status != FM_OK ? status : written;
+}
+
+static fm_status measure(int *code, fm_tonight *tonight, fm_error *err)
+{
+    const fm_status status = stage_measure(code, tonight, err);
+    if (status == FM_OK && tonight->night.stage != FM_NIGHT_JUDGES)
+        fprintf(tonight->cli->talk, "fragmark nightly: measuring ended with %d: see %s/run.log\n",
+                *code, tonight->night.folder);
+    return status;
+}
+
+/* One stage; it stays the same where it is to be tried again by the next command. */
+static fm_status advance(int *code, fm_tonight *tonight, const char *root, fm_error *err)
+{
+    switch (tonight->night.stage) {
+    case FM_NIGHT_BUILDS:
+        return build(code, tonight, err);
+    case FM_NIGHT_PLANS:
+        return plan_built(tonight, root, err);
+    case FM_NIGHT_MEASURES:
+        return measure(code, tonight, err);
+    case FM_NIGHT_JUDGES:
+        return stage_judge(code, tonight, err);
+    case FM_NIGHT_CONFIRMS:
+        return stage_confirm(tonight, err);
+    case FM_NIGHT_DONE:
+    case FM_NIGHT_GIVEN_UP:
+    case FM_NIGHT_STAGES:
+        break;
+    }
+    return FM_OK;
 }
 
 /* From the stage that the night is in. */
@@ -279,19 +375,20 @@ static int work(fm_tonight *tonight, const char *root)
     int code = CLI_DONE;
     fm_error err = { 0 };
     fm_status status = FM_OK;
-    tell(tonight);
+    fm_night_stage before = FM_NIGHT_STAGES;
+    fprintf(tonight->cli->talk, "%s %s\n", tonight->is_continued ? "continues" : "begins",
+            tonight->night.folder);
+    if (tonight->night.stage > FM_NIGHT_PLANS)
+        tell_plan(tonight);
     link_latest(tonight, root);
-    if (tonight->night.stage == FM_NIGHT_MEASURES)
-        status = stage_measure(&code, tonight, &err);
-    if (status == FM_OK && tonight->night.stage == FM_NIGHT_JUDGES)
-        status = stage_judge(&code, tonight, &err);
-    else if (status == FM_OK)
-        fprintf(tonight->cli->talk, "fragmark nightly: measuring ended with %d: see %s/run.log\n",
-                code, tonight->night.folder);
+    while (status == FM_OK && night_is_open(&tonight->night) && tonight->night.stage != before) {
+        before = tonight->night.stage;
+        status = advance(&code, tonight, root, &err);
+    }
     return status == FM_OK ? code : fail(tonight, status, &err);
 }
 
-/* A night whose code changed under it is given up, and another one begun. */
+/* A night whose code or plan changed under it is given up, and another one begun. */
 static int run_nights(fm_tonight *tonight, const char *root)
 {
     bool is_found;
@@ -302,13 +399,26 @@ static int run_nights(fm_tonight *tonight, const char *root)
     if (status != FM_OK)
         return fail(tonight, status, &err);
     const int code = work(tonight, root);
-    if (code != CLI_OTHER_CODE || !tonight->is_continued)
+    if (tonight->night.stage != FM_NIGHT_GIVEN_UP || !tonight->is_continued)
         return code;
     night_state_free(&tonight->night);
     tonight->night = (fm_night_state){ 0 };
     tonight->is_continued = false;
     status = begin_night(tonight, root, &err);
     return status == FM_OK ? work(tonight, root) : fail(tonight, status, &err);
+}
+
+/* As this program was executed; argp has changed the order at most. NULL: no memory. */
+static const char **own_arguments(int argc, char **argv)
+{
+    const char **made = calloc((size_t)argc + 2, sizeof *made);
+    if (made == NULL)
+        return NULL;
+    made[0] = "fragmark";
+    made[1] = "nightly";
+    for (int i = 1; i < argc; i++)
+        made[i + 1] = argv[i];
+    return made;
 }
 
 int nightly_command(const fm_cli *cli, int argc, char **argv)
@@ -319,8 +429,12 @@ int nightly_command(const fm_cli *cli, int argc, char **argv)
     fm_policy policy;
     fm_error err = { 0 };
     argp_parse(&argp, argc, argv, 0, NULL, &given);
-    fm_tonight tonight = { .cli = cli, .policy = &policy, .lock = -1 };
+    fm_tonight tonight = {
+        .cli = cli, .policy = &policy, .lock = -1, .argv = own_arguments(argc, argv)
+    };
     fm_status status = policy_read(&policy, given.policy, &err);
+    if (tonight.argv == NULL)
+        status = fm_fail(&err, FM_NO_MEMORY, "no memory for the arguments");
     if (status == FM_OK)
         status = settle(&policy, root, &given, &err);
     if (status == FM_OK)
@@ -333,5 +447,6 @@ int nightly_command(const fm_cli *cli, int argc, char **argv)
     policy_free(&policy);
     if (tonight.lock >= 0)
         close(tonight.lock);
+    free(tonight.argv);
     return code;
 }

@@ -11,10 +11,14 @@ enum { BUDGET_MINUTES = 10, LEAST = 3, MOST = 40, LAUNCHES = 1000 };
 static const double budget_most_minutes = 24 * 60, usual_effect_percent = 6;
 
 static const char *const policy_keys[] = {
-    "methods",     "scenes",         "devices",        "feeds",          "axes",
-    "plugin_dirs", "spec",           "output",         "state",          "baseline",
-    "reference",   "budget_minutes", "effect_percent", "launches_least", "launches_most",
+    "methods",        "scenes",        "devices",   "feeds",          "axes",
+    "plugin_dirs",    "build",         "base",      "spec",           "output",
+    "state",          "baseline",      "reference", "budget_minutes", "effect_percent",
+    "launches_least", "launches_most",
 };
+
+/* Of the budget. */
+static const double share_with_base = 0.6, share_without = 0.9;
 
 /* A path as it is seen from the policy's folder; "": the key is not there. */
 static fm_status take_path(char to[FM_PATH_MAX_BYTES], const fm_yaml *map, const char *key,
@@ -98,6 +102,24 @@ static fm_status take_plugins(fm_policy *policy, const fm_yaml *map, const fm_ya
     return status;
 }
 
+static fm_status take_build(fm_policy *policy, const fm_yaml *map, const fm_yaml_place *at)
+{
+    const char *slash = strrchr(at->path, '/');
+    const int length = slash != NULL ? (int)(slash - at->path) : 1;
+    const fm_status status = field_list(&policy->build, map, "build", at);
+    if (status != FM_OK)
+        return status;
+    if (yaml_tree_find(map, "build") != NULL &&
+        (policy->build.count == 0 || policy->build.items[0][0] == '\0'))
+        return fm_fail(at->err, FM_INVALID, "%s:%u: build: a command and its arguments", at->path,
+                       yaml_tree_find(map, "build")->line);
+    if (length >= FM_PATH_MAX_BYTES)
+        return fm_fail(at->err, FM_INVALID, "%.64s...: too long a path", at->path);
+    snprintf(policy->folder, sizeof policy->folder, "%.*s", length > 0 ? length : 1,
+             slash == NULL ? "." : at->path);
+    return FM_OK;
+}
+
 static fm_status take_numbers(fm_policy *policy, const fm_yaml *map, const fm_yaml_place *at)
 {
     double percent = usual_effect_percent;
@@ -124,6 +146,10 @@ static fm_status take_fields(fm_policy *policy, const fm_yaml *map, const fm_yam
         status = take_lists(policy, map, at);
     if (status == FM_OK)
         status = take_plugins(policy, map, at);
+    if (status == FM_OK)
+        status = take_build(policy, map, at);
+    if (status == FM_OK)
+        status = take_path(policy->base, map, "base", at);
     if (status == FM_OK)
         status = take_path(policy->spec, map, "spec", at);
     if (status == FM_OK)
@@ -189,8 +215,19 @@ fm_status policy_read(fm_policy *policy, const char *path, fm_error *err)
     return status == FM_OK ? find_hash(policy, err) : status;
 }
 
+double policy_seconds(const fm_policy *policy, double built_s)
+{
+    return fmax(60.0 * policy->budget_minutes - built_s, 0.0);
+}
+
+double policy_launch_share(const fm_policy *policy)
+{
+    return policy->base[0] != '\0' ? share_with_base : share_without;
+}
+
 void policy_free(fm_policy *policy)
 {
+    text_list_free(&policy->build);
     text_list_free(&policy->plugin_folders);
     text_list_free(&policy->axes);
     text_list_free(&policy->feeds);

@@ -13,6 +13,10 @@
 
 typedef struct fm_policy {
     fm_text_list methods, scenes, devices, feeds, axes, plugin_folders; /* as after --method, ... */
+    fm_text_list build;             /* a command and its arguments; none: nothing is built */
+    char folder[FM_PATH_MAX_BYTES]; /* of the policy's file, in which it is executed */
+    char base[FM_PATH_MAX_BYTES];   /* a build, or a folder of methods, that what is slower is held
+                                       against; "": none */
     char spec[FM_PATH_MAX_BYTES];   /* a spec file that they stand over; "": none */
     char output[FM_PATH_MAX_BYTES]; /* the folder of nights; "": STATE/nights */
     char state[FM_PATH_MAX_BYTES];  /* "": the usual folder (base/state.h) */
@@ -29,5 +33,11 @@ typedef struct fm_policy {
  * a failure too. */
 fm_status policy_read(fm_policy *policy, const char *path, fm_error *err);
 void policy_free(fm_policy *policy);
+
+/* What is left of the budget once it was built for so long. */
+double policy_seconds(const fm_policy *policy, double built_s);
+/* The share of that which launches take: the rest draws and judges, and confirms where there is a
+ * base. */
+double policy_launch_share(const fm_policy *policy);
 
 #endif

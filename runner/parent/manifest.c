@@ -11,7 +11,7 @@
 #include "machine.h"
 #include "model/family.h"
 
-static json_t *machine_json(const fm_results *results)
+static json_t *machine_json(const fm_results *results, const char *compiler)
 {
     fm_machine machine;
     json_t *mesa = NULL;
@@ -23,8 +23,9 @@ static json_t *machine_json(const fm_results *results)
     }
     return json_pack("{s:s, s:i, s:I, s:s, s:s, s:s, s:s, s:o?}", "cpu", machine.cpu, "cores",
                      (int)machine.cores, "memory_bytes", (json_int_t)machine.memory_bytes, "os",
-                     machine.os, "kernel", machine.kernel, "compiler", machine.compiler, "governor",
-                     machine.governor, "mesa", mesa);
+                     machine.os, "kernel", machine.kernel, "compiler",
+                     compiler != NULL ? compiler : machine.compiler, "governor", machine.governor,
+                     "mesa", mesa);
 }
 
 static bool device_is_listed(const json_t *devices, const char *selector)
@@ -138,6 +139,15 @@ static json_t *scene_json(const fm_case *planned)
                      settings);
 }
 
+/* Where the executable lay whose workers measured; "codes" has its hash. */
+static json_t *program_json(const fm_run_desc *run)
+{
+    char *path = realpath(run->worker != NULL ? run->worker : "/proc/self/exe", NULL);
+    json_t *json = text_json(path != NULL ? path : "");
+    free(path);
+    return json;
+}
+
 /* By hash: each distinct scene once. */
 static json_t *scenes_json(const fm_results *results)
 {
@@ -204,23 +214,29 @@ static json_t *manifest_json(const fm_manifest_desc *desc)
 {
     const fm_results *results = desc->results;
     const fm_plan *plan = results->plan;
+    const fm_run_desc *run = desc->run;
     char ended[32] = "";
     struct tm utc;
     const time_t now = time(NULL);
     gmtime_r(&now, &utc);
     strftime(ended, sizeof ended, "%Y-%m-%dT%H:%M:%SZ", &utc);
     return json_pack(
-        "{s:i, s:s, s:s, s:s, s:o?, s:I, s:i, s:i, s:i, s:b, s:b, s:s, s:s?, s:o, s:o, s:o, s:o, "
+        "{s:i, s:s, s:s, s:o?, s:s, s:o?, s:I, s:i, s:i, s:i, s:b, s:b, s:b, s:s, s:s?, s:o, s:o, "
+        "s:o, "
+        "s:o, "
         "s:o, s:o, s:O?, s:o, s:o*, s:o*}",
-        "schema", 1, "fragmark", FM_VERSION, "git_commit", FM_GIT_COMMIT, "run_id", results->run_id,
-        "command", desc->run->command != NULL ? text_json(desc->run->command) : NULL, "seed",
-        (json_int_t)plan->seed, "launches", (int)plan->launches, "frames", (int)plan->frames,
-        "warmup", (int)plan->warmup, "validation", (int)desc->run->validation, "no_timers",
-        (int)desc->run->no_timers, "started", desc->started, "ended", desc->is_ended ? ended : NULL,
-        "figures", figures_json(desc->run->figures), "machine", machine_json(results), "devices",
-        devices_json(results), "methods", methods_json(results), "scenes", scenes_json(results),
-        "modelled", modelled_json(results), "meshes", results->meshes, "codes", codes_json(results),
-        "shard", shard_json(&plan->shard), "precision_percent", precision_json(plan));
+        "schema", 1, "fragmark", FM_VERSION, "git_commit",
+        run->worker_commit != NULL ? run->worker_commit : FM_GIT_COMMIT, "program",
+        program_json(run), "run_id", results->run_id, "command",
+        run->command != NULL ? text_json(run->command) : NULL, "seed", (json_int_t)plan->seed,
+        "launches", (int)plan->launches, "frames", (int)plan->frames, "warmup", (int)plan->warmup,
+        "validation", (int)run->validation, "no_timers", (int)run->no_timers, "cache",
+        (int)(run->cache != NULL && run->cache[0] != '\0'), "started", desc->started, "ended",
+        desc->is_ended ? ended : NULL, "figures", figures_json(run->figures), "machine",
+        machine_json(results, run->worker_compiler), "devices", devices_json(results), "methods",
+        methods_json(results), "scenes", scenes_json(results), "modelled", modelled_json(results),
+        "meshes", results->meshes, "codes", codes_json(results), "shard", shard_json(&plan->shard),
+        "precision_percent", precision_json(plan));
 }
 
 fm_status manifest_write(const fm_manifest_desc *desc, fm_error *err)

@@ -1,11 +1,13 @@
 #include "run.h"
 
 #include <assert.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "base/random.h"
+#include "machine.h"
 #include "manifest.h"
 #include "results/noise.h"
 #include "run_internal.h"
@@ -165,6 +167,22 @@ static fm_status write_shard(const run_state *run, fm_error *err)
     return status == FM_OK ? text_write_file(path, csv->bytes, csv->length, err) : status;
 }
 
+/* Limits that cannot be read are told, and cost columns that follow from them, but no run. */
+static void take_limits(run_state *run)
+{
+    char path[FM_PATH_MAX_BYTES];
+    fm_error fault = { 0 };
+    fm_machine machine;
+    machine_describe(&machine);
+    if (limits_path(path, &fault) != FM_OK)
+        return; /* nowhere to remember */
+    if (limits_read(&run->limits, path, &fault) != FM_OK)
+        progress_tell_always(&run->progress, run->desc->directory, fault.message);
+    run->results->limits = &run->limits;
+    run->results->host.cores = machine.cores;
+    snprintf(run->results->host.cpu, sizeof run->results->host.cpu, "%s", machine.cpu);
+}
+
 static fm_status prepare(run_state *run, fm_error *err)
 {
     fm_status status = truth_jobs_create(&run->truths, run->plan, run->plugins, err);
@@ -175,6 +193,8 @@ static fm_status prepare(run_state *run, fm_error *err)
     if (status == FM_OK)
         status = run_resume(run, err);
     run->is_resumed = status == FM_OK;
+    if (status == FM_OK)
+        take_limits(run);
     if (status == FM_OK)
         status = write_figure_cases(run, err);
     if (status == FM_OK)
@@ -249,9 +269,26 @@ void run_settle(fm_open_run *run)
         run->results->cases[i].is_enough = run->results->cases[i].done > 0;
 }
 
-/* What a run that went well writes at its end. */
-static fm_status write_end(fm_run_result *result, const run_state *run, fm_error *err)
+/* Once for each run: a device whose rows have a time, and no bound. */
+static void tell_unbound(run_state *run)
 {
+    char sentence[512];
+    for (size_t i = 0; i < run->plan->count; i++) {
+        if (!summary_lacks_limits(run->results, i))
+            continue;
+        snprintf(sentence, sizeof sentence,
+                 "times_bound is empty: %s was not calibrated here (`fragmark calibrate device "
+                 "--device %s`)",
+                 run->results->cases[i].device_name, run->plan->cases[i].device);
+        progress_tell(&run->progress, run->desc->directory, sentence);
+        return;
+    }
+}
+
+/* What a run that went well writes at its end. */
+static fm_status write_end(fm_run_result *result, run_state *run, fm_error *err)
+{
+    tell_unbound(run);
     fm_status status = results_end(run->results, err);
     if (status == FM_OK)
         status = sum_noise(result, run, err);
@@ -266,6 +303,7 @@ static void free_run(run_state *run)
 {
     journal_close(run->journal);
     results_destroy(run->results);
+    limits_free(&run->limits);
     codes_free(&run->codes);
     json_decref(run->drivers);
     truth_jobs_free(&run->truths);

@@ -36,19 +36,22 @@ typedef struct fm_run_desc {
     bool validation;       /* open devices with API validation */
     bool no_timers;
     bool no_images;
-    uint32_t retried;      /* statuses, as bits 1u << fm_case_status: rows of an earlier run that
-                              have them are measured anew, and the old ones forgotten */
-    uint32_t kept;         /* what DIRECTORY/kept is to hold of each case, as bits 1u << kept_kind:
-                              ID.fragments, ID.truth, ID.frames (truth/kept_file.h). Of rows that an
-                              earlier run finished without, it is told how many lack which */
-    bool is_fresh;         /* rows of other code than is here now are measured anew; else they are
-                              refused */
-    uint32_t timeout_s;    /* of one launch; 0 is 600 */
+    uint32_t retried;   /* statuses, as bits 1u << fm_case_status: rows of an earlier run that
+                           have them are measured anew, and the old ones forgotten */
+    uint32_t kept;      /* what DIRECTORY/kept is to hold of each case, as bits 1u << kept_kind:
+                           ID.fragments, ID.truth, ID.frames (truth/kept_file.h). Of rows that an
+                           earlier run finished without, it is told how many lack which */
+    bool is_fresh;      /* rows of other code than is here now are measured anew; else they are
+                           refused */
+    const char *cache;  /* folder of what other launches left (cache/cache.h); NULL or "": none */
+    uint32_t timeout_s; /* of one launch; 0 is 600 */
     uint64_t memory_bytes; /* address-space limit of one launch; 0: none */
     FILE *progress;        /* NULL: silent */
     FILE *talk;            /* for what is told also without progress: which rows of an earlier run
                               are forgotten, and why; NULL: nothing is */
     const char *worker;    /* executed as `WORKER worker REQUEST RESULT`; NULL: this program */
+    /* Of its sources, and that built it, for the manifest; NULL: this program's. */
+    const char *worker_commit, *worker_compiler;
     const char *const *figures;  /* ids that this run is for, for the report; ends with NULL */
     const fm_text *figure_cases; /* figures.csv: which case is for which of them; NULL: none */
 } fm_run_desc;

@@ -43,6 +43,7 @@ struct fm_open_run {
     const fm_run_desc *desc;
     fm_journal *journal;
     fm_results *results;
+    fm_limits_list limits; /* of devices, as they were calibrated before the run */
     fm_truth_jobs truths;
     run_looks looks;
     fm_text_index ids; /* of the plan's cases */

@@ -37,6 +37,7 @@ fm_request run_request_for(const run_state *run, const fm_case *planned, size_t 
                          .floor = run->truths.jobs[job].floor,
                          .common = run->plugins->common_folder,
                          .truth = truth,
+                         .cache = run->desc->cache,
                          .image = "",
                          .validation = run->desc->validation,
                          .no_timers = run->desc->no_timers };

@@ -56,7 +56,8 @@ static const struct argp argp = {
         "Is the second one slower? Measures a method of two plugin folders, or of two builds, by "
         "pairs of launches that run one after the other, each in a process of its own, and says of "
         "each case: worse, better, same (proved) or unclear. DIR is a folder that has METHOD/, a "
-        "build with methods/, or an installed prefix. This program runs both."
+        "build with methods/, or an installed prefix. A build that has its own program is measured "
+        "by it, with its shaders; this program plans and judges."
         "\v"
         "Of each pair the ratio of the launches' median times counts; on software devices that of "
         "their least processor times, too (column cpu), which other programs hardly change. A "
@@ -77,6 +78,8 @@ static const struct argp argp = {
         "  fragmark ab kplus-heap@/build/main kplus-heap@/build/mine -o heap\n"
         "  fragmark ab kb@old/methods kb@new/methods -a k=4,16 -a n=32 --pairs 10,20,40\n"
         "  fragmark ab mine@v1 mine@v2 --scene bunny --device osmesa --json\n"
+        "  fragmark ab kb@/build/main kb@/build/mine --program this   (the method, not the "
+        "runner)\n"
         "\n" COMPARING_EXIT_CODES "\n"
         "\n"
         "Axes, with their values and (default):",
@@ -90,10 +93,8 @@ static fm_status open_side(comparing *of, ab_side_name side, const char *text, f
     const char *directory;
     fm_status status = side_parse(method, &directory, text, err);
     if (status == FM_OK)
-        status = side_find_folder(of->folders[side], directory, err);
-    if (status == FM_OK)
         status = names_add(&of->methods[side], method, err);
-    return status == FM_OK ? comparing_find(of, side, err) : status;
+    return status == FM_OK ? comparing_open(of, side, directory, err) : status;
 }
 
 static fm_status open_both(comparing *of, ab_arguments *given, fm_error *err)
@@ -117,13 +118,13 @@ int regress_ab(const fm_cli *cli, int argc, char **argv)
     cli_directory(of.directory, &given.shared.selection);
     fm_status status = open_both(&of, &given, &err);
     if (status != FM_OK) {
-        code = cli_fail(cli, &err);
+        code = comparing_refuse(&of, &err);
     } else {
         status = comparing_run(&of, command, &err);
         code = comparing_report(&of, status, &err);
     }
     comparing_free(&of);
-    arguments_free(&given.shared.selection);
+    comparing_arguments_free(&given.shared);
     free(command);
     return code;
 }

@@ -93,8 +93,13 @@ static const struct argp argp = {
         "500 "
         "gates whose pairs are drawn from those that were measured.\n"
         "\n"
+        "`fragmark calibrate device` measures what a device can do at most (its own --help).\n"
+        "\n"
         "Calibrate each device once, when the machine does what it does at night, and again when "
-        "the machine has changed. A file holds one machine: processor, cores and memory.\n"
+        "the machine has changed. Of several cases on one device the noisiest is kept: the one "
+        "with "
+        "the largest detectable change, of processor time on software devices, else of time. A "
+        "file holds one machine: processor, cores, and memory within 2 %.\n"
         "\n"
         "Examples:\n"
         "  fragmark calibrate\n"
@@ -102,8 +107,10 @@ static const struct argp argp = {
         "  fragmark calibrate -o calibration.json && fragmark gate A B --calibration "
         "calibration.json\n"
         "\n"
-        "Exit codes: 0 done; 2 usage error, nothing was run; 3 nothing could be measured; 5 "
-        "something cannot be written; 129, 130, 143 interrupted.\n"
+        "Exit codes: 0 done; 2 usage error, or a calibration that cannot be added to, nothing was "
+        "run; 3 nothing could be measured; 4 cases failed, and the others are kept; 5 "
+        "incomplete: with --results the same command continues; 7 other code than the launches in "
+        "--results were begun with; 8 damaged or foreign file there; 129, 130, 143 interrupted.\n"
         "\n"
         "Axes, with their values and (default):",
     .children = children,
@@ -136,10 +143,11 @@ static fm_status open_both(comparing *of, calibrate_arguments *given, fm_error *
     if (status == FM_OK)
         status = plugin_list_get(&entry, &all, method, err);
     for (int side = 0; side < AB_SIDE_COUNT && status == FM_OK; side++) {
-        take_folder(of->folders[side], entry->path);
+        char folder[FM_PATH_MAX_BYTES];
+        take_folder(folder, entry->path);
         status = names_add(&of->methods[side], method, err);
         if (status == FM_OK)
-            status = comparing_find(of, (ab_side_name)side, err);
+            status = comparing_open(of, (ab_side_name)side, folder, err);
     }
     plugin_list_close(&all);
     if (status == FM_OK)
@@ -178,34 +186,93 @@ static void tell(const fm_cli *cli, const ab_noise *noise, const ab_policy *poli
     }
 }
 
-/* Each device's calibration takes the place of its last one. */
-static fm_status keep(const comparing *of, const calibrate_arguments *given, fm_error *err)
+/* A case that failed, on one side at least, before it had as many pairs as a first look. */
+static void tell_left_out(const fm_cli *cli, const ab_case *of, const char *why)
+{
+    fprintf(cli->talk, "left out, for it was not measured: %s: %s\n", of->name,
+            of->message[AB_BASE][0] != '\0'  ? of->message[AB_BASE]
+            : of->message[AB_NEW][0] != '\0' ? of->message[AB_NEW]
+                                             : why);
+}
+
+static void tell_noisiest(const fm_cli *cli, const ab_noise_list *measured, const ab_result *of)
+{
+    for (size_t i = 0; i < measured->count; i++) {
+        const ab_noise *noise = &measured->items[i];
+        size_t cases = 0;
+        for (size_t j = 0; j < of->count; j++)
+            cases += of->cases[j].verdict != AB_UNMEASURED &&
+                     strcmp(of->cases[j].device_name, noise->device_name) == 0;
+        if (cases > 1)
+            fprintf(cli->out, "%s: of these the noisiest case is kept: %s\n", noise->device_name,
+                    noise->measured);
+    }
+}
+
+/* Of each device the noisiest case: what a gate takes for a change is then one in every case. */
+static fm_status gather(ab_noise_list *measured, const comparing *of,
+                        const calibrate_arguments *given, fm_error *err)
+{
+    const fm_cli *cli = given->shared.selection.cli;
+    ab_policy usual;
+    fm_status status = ab_policy_make(&usual, NULL, err);
+    for (size_t i = 0; i < of->result.count && status == FM_OK; i++) {
+        ab_noise noise;
+        status = take_noise(&noise, &of->result.cases[i], given->pairs, &usual, err);
+        if (status == FM_INVALID) { /* too few pairs */
+            tell_left_out(cli, &of->result.cases[i], err->message);
+            status = FM_OK;
+            continue;
+        }
+        if (status == FM_OK)
+            status = noise_keep_noisiest(measured, &noise, err);
+        if (status == FM_OK)
+            tell(cli, &noise, &usual);
+    }
+    return status;
+}
+
+/* Reads what this machine's file holds so far. */
+static fm_status read_kept(ab_noise_list *list, char path[FM_PATH_MAX_BYTES],
+                           const calibrate_arguments *given, const fm_machine *machine,
+                           fm_error *err)
+{
+    char folder[FM_PATH_MAX_BYTES];
+    fm_status status = FM_OK;
+    *list = (ab_noise_list){ 0 };
+    if (given->file != NULL) {
+        snprintf(path, FM_PATH_MAX_BYTES, "%s", given->file);
+    } else {
+        status = noise_folder(folder, err);
+        if (status == FM_OK)
+            status = noise_find(path, folder, machine, err);
+    }
+    return status == FM_OK ? noise_read(list, path, machine, err) : status;
+}
+
+/* Before minutes are spent: a file that cannot be added to. */
+static fm_status expect_file(const calibrate_arguments *given, fm_error *err)
 {
     char path[FM_PATH_MAX_BYTES];
     fm_machine machine;
-    ab_policy usual;
-    ab_noise_list list = { 0 };
+    ab_noise_list list;
     machine_describe(&machine);
-    fm_status status = ab_policy_make(&usual, NULL, err);
-    if (status == FM_OK && given->file == NULL)
-        status = noise_path(path, &machine, err);
-    if (status == FM_OK && given->file != NULL)
-        snprintf(path, sizeof path, "%s", given->file);
-    if (status == FM_OK)
-        status = noise_read(&list, path, &machine, err);
-    for (size_t i = 0; i < of->result.count && status == FM_OK; i++) {
-        ab_noise noise;
-        if (of->result.cases[i].verdict == AB_UNMEASURED) {
-            fprintf(given->shared.selection.cli->talk, "left out, for it was not measured: %s\n",
-                    of->result.cases[i].name);
-            continue;
-        }
-        status = take_noise(&noise, &of->result.cases[i], given->pairs, &usual, err);
-        if (status == FM_OK)
-            status = noise_keep(&list, &noise, err);
-        if (status == FM_OK)
-            tell(given->shared.selection.cli, &noise, &usual);
-    }
+    const fm_status status = read_kept(&list, path, given, &machine, err);
+    noise_free(&list);
+    return status;
+}
+
+/* Each device's calibration takes the place of its last one. */
+static fm_status keep(const ab_noise_list *measured, const calibrate_arguments *given,
+                      fm_error *err)
+{
+    char path[FM_PATH_MAX_BYTES];
+    fm_machine machine;
+    ab_noise_list list;
+    machine_describe(&machine);
+    fm_status status = read_kept(&list, path, given, &machine, err);
+    for (size_t i = 0; i < measured->count && status == FM_OK; i++)
+        status = noise_keep(&list, &measured->items[i], err);
     if (status == FM_OK)
         status = noise_write(path, &list, &machine, err);
     if (status == FM_OK)
@@ -220,32 +287,46 @@ static int remove_entry(const char *path, const struct stat *info, int kind, str
     return remove(path);
 }
 
-static int finish(const comparing *of, const calibrate_arguments *given, fm_status status,
-                  fm_error *err)
+static int keep_all(const comparing *of, const calibrate_arguments *given)
 {
     const fm_cli *cli = given->shared.selection.cli;
-    if (status == FM_OK && !of->result.is_finished) {
-        fprintf(cli->talk, "interrupted: nothing is kept%s\n",
-                given->results != NULL ? "; the same command continues" : "");
-        return CLI_SIGNAL + of->result.stop_signal;
+    fm_error err = { 0 };
+    ab_noise_list measured = { 0 };
+    int code = comparing_has_failures(of) ? CLI_SOME_FAILED : CLI_DONE;
+    fm_status status = gather(&measured, of, given, &err);
+    if (status == FM_OK && measured.count == 0) {
+        fprintf(cli->talk, "fragmark: nothing could be measured\n");
+        code = code == CLI_DONE ? CLI_NOTHING : code;
+    } else if (status == FM_OK) {
+        tell_noisiest(cli, &measured, &of->result);
+        status = keep(&measured, given, &err);
     }
-    if (status == FM_OK && ab_count(&of->result, AB_UNMEASURED) == of->result.count) {
-        fprintf(cli->talk, "fragmark: nothing could be measured: %s\n",
-                of->result.cases[0].message[AB_BASE]);
-        return CLI_NOTHING;
+    if (status != FM_OK) {
+        cli_fail(cli, &err);
+        code = CLI_INCOMPLETE;
     }
-    if (status == FM_OK)
-        status = keep(of, given, err);
-    if (status == FM_OK)
-        return CLI_DONE;
-    cli_fail(cli, err);
-    return CLI_INCOMPLETE;
+    noise_free(&measured);
+    return code;
+}
+
+static int finish(const comparing *of, const calibrate_arguments *given, fm_status status,
+                  const fm_error *err)
+{
+    if (status != FM_OK)
+        return comparing_fail(of, err);
+    if (of->result.is_finished)
+        return keep_all(of, given);
+    fprintf(given->shared.selection.cli->talk, "interrupted: nothing is kept%s\n",
+            given->results != NULL ? "; the same command continues" : "");
+    return CLI_SIGNAL + of->result.stop_signal;
 }
 
 static int calibrate(comparing *of, calibrate_arguments *given, const char *command)
 {
     fm_error err = { 0 };
     fm_status status = open_both(of, given, &err);
+    if (status == FM_OK)
+        status = expect_file(given, &err);
     if (status != FM_OK)
         return cli_fail(given->shared.selection.cli, &err);
     if (given->results != NULL)
@@ -262,15 +343,20 @@ static int calibrate(comparing *of, calibrate_arguments *given, const char *comm
 
 int regress_calibrate(const fm_cli *cli, int argc, char **argv)
 {
+    char device_title[] = "fragmark calibrate device";
     calibrate_arguments given = { .shared.selection = { .cli = cli, .no_images = true },
                                   .pairs = PAIRS };
+    if (argc > 1 && strcmp(argv[1], "device") == 0) {
+        argv[1] = device_title;
+        return regress_calibrate_device(cli, argc - 1, argv + 1);
+    }
     comparing of = { .given = &given.shared };
     char *command = cli_command_text(argc, argv);
     argp_parse(&argp, argc, argv, 0, NULL, &given);
     given.shared.looks[0] = given.pairs;
     const int code = calibrate(&of, &given, command);
     comparing_free(&of);
-    arguments_free(&given.shared.selection);
+    comparing_arguments_free(&given.shared);
     free(command);
     return code;
 }

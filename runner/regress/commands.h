@@ -8,5 +8,7 @@
 #include "cli/cli.h"
 
 fm_command regress_ab, regress_gate, regress_calibrate;
+/* `fragmark calibrate device`; argv[0] is that. */
+fm_command regress_calibrate_device;
 
 #endif

@@ -5,7 +5,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { KEY_PAIRS = 600, KEY_BAND, KEY_CALIBRATION, KEY_CSV, KEY_JSON, KEY_SPEC };
+#include "program/handshake.h"
+
+enum {
+    KEY_PAIRS = 600,
+    KEY_BAND,
+    KEY_CALIBRATION,
+    KEY_CSV,
+    KEY_JSON,
+    KEY_SPEC,
+    KEY_CASE,
+    KEY_PROGRAM
+};
 
 static const struct argp_option options[] = {
     { "pairs", KEY_PAIRS, "N,...", 0,
@@ -16,6 +27,12 @@ static const struct argp_option options[] = {
     { "calibration", KEY_CALIBRATION, "FILE|none", 0,
       "what this machine can see (`fragmark calibrate`); this machine's own, if there is one", 0 },
     { "spec", KEY_SPEC, "SPEC.yml", 0, "scenes, devices, feeds and axes from a file", 0 },
+    { "case", KEY_CASE, "ID,...", 0,
+      "of what is chosen these cases alone, by the id that either side has; repeatable", 0 },
+    { "program", KEY_PROGRAM, "own|this", 0,
+      "who measures a build: its own program, if it has one, or this one, which then measures both "
+      "sides; own",
+      0 },
     { "csv", KEY_CSV, "FILE", 0, "also write the table of DIR/ab.csv here", 0 },
     { "json", KEY_JSON, NULL, 0, "print JSON instead of lines", 0 },
     { 0 },
@@ -55,6 +72,20 @@ static void take_band(comparing_arguments *given, const char *text, struct argp_
     given->band = percent / 100.0;
 }
 
+static void take_program(comparing_arguments *given, const char *text, struct argp_state *state)
+{
+    given->is_by_this_program = strcmp(text, "this") == 0;
+    if (!given->is_by_this_program && strcmp(text, "own") != 0)
+        argp_error(state, "--program %.40s: own or this, please", text);
+}
+
+static void take_cases(comparing_arguments *given, const char *text, struct argp_state *state)
+{
+    fm_error err = { 0 };
+    if (names_add_split(&given->cases, text, &err) != FM_OK)
+        argp_error(state, "--case: %s", err.message);
+}
+
 static error_t parse(int key, char *text, struct argp_state *state)
 {
     comparing_arguments *given = state->input;
@@ -70,6 +101,12 @@ static error_t parse(int key, char *text, struct argp_state *state)
         return 0;
     case KEY_SPEC:
         given->spec = text;
+        return 0;
+    case KEY_CASE:
+        take_cases(given, text, state);
+        return 0;
+    case KEY_PROGRAM:
+        take_program(given, text, state);
         return 0;
     case KEY_CSV:
         given->csv = text;
@@ -105,8 +142,8 @@ static fm_status use_frames(comparing_arguments *given, fm_error *err)
 fm_status comparing_use_defaults(comparing_arguments *given, fm_error *err)
 {
     static const char *const axes[] = { "n=32", "k=8", "width_px=320", "height_px=180" };
-    const bool is_chosen =
-        given->spec != NULL || given->selection.scenes.count > 0 || given->selection.axes.count > 0;
+    const bool is_chosen = given->spec != NULL || given->cases.count > 0 ||
+                           given->selection.scenes.count > 0 || given->selection.axes.count > 0;
     fm_status status = FM_OK;
     for (size_t i = 0; i < sizeof axes / sizeof axes[0] && status == FM_OK && !is_chosen; i++)
         status = names_add(&given->selection.axes, axes[i], err);
@@ -117,28 +154,60 @@ fm_status comparing_use_defaults(comparing_arguments *given, fm_error *err)
 static fm_status list_folders(fm_text_list *folders, const comparing *of, ab_side_name side,
                               fm_error *err)
 {
-    const fm_status status = names_add(folders, of->folders[side], err);
+    const fm_status status = names_add(folders, of->builds[side].methods, err);
     if (status == FM_OK && !text_list_add_all(folders, &of->given->selection.plugin_folders))
         return fm_fail(err, FM_NO_MEMORY, "no memory for the arguments");
     return status;
 }
 
-fm_status comparing_find(comparing *of, ab_side_name side, fm_error *err)
+/* A build's program with another one's GLSL would be neither. */
+static fm_status expect_common(const comparing *of, ab_side_name side, fm_error *err)
+{
+    const fm_build *build = &of->builds[side];
+    const size_t length = strlen(build->methods);
+    const char *common = of->plugins[side].common_folder;
+    return strncmp(common, build->methods, length) == 0 && common[length] == '/'
+               ? FM_OK
+               : fm_fail(err, FM_INVALID,
+                         "%s has no common/prelude.glsl for %s; `--program this` has this program "
+                         "measure both sides",
+                         build->methods, build->program);
+}
+
+static fm_status find_plugins(comparing *of, ab_side_name side, fm_error *err)
 {
     fm_text_list folders = { 0 };
+    fm_build *build = &of->builds[side];
     fm_status status = list_folders(&folders, of, side, err);
     if (status == FM_OK)
         status = cli_find_plugins(&of->plugins[side], &folders, err);
     text_list_free(&folders);
-    return status;
+    if (status != FM_OK || build->program[0] == '\0')
+        return status;
+    of->describers[side].program = build->program;
+    of->plugins[side].reader_context = &of->describers[side];
+    return expect_common(of, side, err);
+}
+
+fm_status comparing_open(comparing *of, ab_side_name side, const char *path, fm_error *err)
+{
+    fm_build *build = &of->builds[side];
+    fm_status status = build_find(build, path, err);
+    if (of->given->is_by_this_program)
+        build->program[0] = '\0';
+    if (status == FM_OK && build->program[0] != '\0')
+        status = handshake_ask(&of->has_foreign_program, build, err);
+    if (of->has_foreign_program)
+        fm_error_prefix(err, "%s", ab_side_names[side]);
+    return status == FM_OK ? find_plugins(of, side, err) : status;
 }
 
 static fm_status expect_methods(const comparing *of, ab_side_name side, fm_error *err)
 {
     fm_status status = FM_OK;
     for (size_t i = 0; i < of->methods[side].count && status == FM_OK; i++)
-        status =
-            side_expect(&of->plugins[side], of->folders[side], of->methods[side].items[i], err);
+        status = side_expect(&of->plugins[side], of->builds[side].methods,
+                             of->methods[side].items[i], err);
     return status;
 }
 
@@ -180,6 +249,8 @@ fm_status comparing_plan(comparing *of, fm_error *err)
         status = expect_axes(&given->selection, err);
     for (int side = 0; side < AB_SIDE_COUNT && status == FM_OK; side++)
         status = plan_side(of, (ab_side_name)side, err);
+    if (status == FM_OK && given->cases.count > 0)
+        status = sides_choose(&of->plans[AB_BASE], &of->plans[AB_NEW], &given->cases, err);
     for (size_t i = 0; i < of->plans[AB_BASE].count && status == FM_OK; i++)
         status =
             device_expect(given->selection.cli->devices, of->plans[AB_BASE].cases[i].device, err);
@@ -188,25 +259,35 @@ fm_status comparing_plan(comparing *of, fm_error *err)
 
 fm_status comparing_read_noise(comparing *of, fm_error *err)
 {
-    char path[FM_PATH_MAX_BYTES];
+    char folder[FM_PATH_MAX_BYTES], path[FM_PATH_MAX_BYTES];
     fm_machine machine;
     const char *given = of->given->calibration;
     if (given != NULL && strcmp(given, "none") == 0)
         return FM_OK;
     machine_describe(&machine);
-    if (given == NULL)
-        return noise_path(path, &machine, NULL) == FM_OK
-                   ? noise_read(&of->noise, path, &machine, err)
-                   : FM_OK;
-    fm_status status = noise_read(&of->noise, given, &machine, err);
-    if (status == FM_OK && of->noise.count == 0)
+    if (given == NULL && noise_folder(folder, NULL) != FM_OK)
+        return FM_OK; /* nowhere to keep one */
+    fm_status status = given == NULL ? noise_find(path, folder, &machine, err) : FM_OK;
+    if (status == FM_OK)
+        status = noise_read(&of->noise, given == NULL ? path : given, &machine, err);
+    if (status == FM_OK && given != NULL && of->noise.count == 0)
         status = fm_fail(err, FM_INVALID, "--calibration %s: no such file", given);
     return status;
+}
+
+/* Zero where this program measures the side. */
+static ab_program program_of(const fm_build *build)
+{
+    return build->program[0] == '\0'
+               ? (ab_program){ .path = NULL }
+               : (ab_program){ build->program, build->commit, build->compiler };
 }
 
 fm_status comparing_run(comparing *of, const char *command, fm_error *err)
 {
     const fm_arguments *selection = &of->given->selection;
+    char cache[FM_PATH_MAX_BYTES];
+    cli_cache(cache, selection); /* one for both sides, or none */
     const ab_desc desc = {
         .directory = of->directory,
         .command = command != NULL ? command : "",
@@ -220,17 +301,25 @@ fm_status comparing_run(comparing *of, const char *command, fm_error *err)
                  .retried = selection->retried,
                  .kept = selection->kept,
                  .is_fresh = selection->fresh,
+                 .cache = cache,
                  .timeout_s = selection->timeout_s,
                  .memory_bytes = selection->memory_bytes,
                  .progress = selection->quiet ? NULL : selection->cli->talk,
                  .talk = selection->cli->talk },
+        .programs = { program_of(&of->builds[AB_BASE]), program_of(&of->builds[AB_NEW]) },
     };
     /* Who reads the talk may go (`| head`): that costs the talk, and not a run of hours. */
     signal(SIGPIPE, SIG_IGN);
     return ab_run(&of->result, &desc, err);
 }
 
-static int fail(const comparing *of, const fm_error *err)
+int comparing_refuse(const comparing *of, const fm_error *err)
+{
+    const int code = cli_fail(of->given->selection.cli, err);
+    return of->has_foreign_program ? CLI_OTHER_CODE : code;
+}
+
+int comparing_fail(const comparing *of, const fm_error *err)
 {
     const int code = cli_fail(of->given->selection.cli, err);
     if (of->result.is_other_code)
@@ -270,16 +359,21 @@ static bool has_failed(const ab_case *of)
     return false;
 }
 
-static int code_of(const ab_result *result)
+bool comparing_has_failures(const comparing *of)
 {
-    size_t failed = 0;
-    if (ab_count(result, AB_WORSE) > 0)
+    for (size_t i = 0; i < of->result.count; i++)
+        if (has_failed(&of->result.cases[i]))
+            return true;
+    return false;
+}
+
+static int code_of(const comparing *of)
+{
+    if (ab_count(&of->result, AB_WORSE) > 0)
         return CLI_WORSE;
-    for (size_t i = 0; i < result->count; i++)
-        failed += has_failed(&result->cases[i]);
-    if (failed > 0)
+    if (comparing_has_failures(of))
         return CLI_SOME_FAILED;
-    return ab_count(result, AB_UNMEASURED) < result->count ? CLI_DONE : CLI_NOTHING;
+    return ab_count(&of->result, AB_UNMEASURED) < of->result.count ? CLI_DONE : CLI_NOTHING;
 }
 
 int comparing_report(const comparing *of, fm_status status, const fm_error *err)
@@ -287,7 +381,7 @@ int comparing_report(const comparing *of, fm_status status, const fm_error *err)
     fm_error below = { 0 };
     FILE *talk = of->given->selection.cli->talk;
     if (status != FM_OK)
-        return fail(of, err);
+        return comparing_fail(of, err);
     if (!of->result.is_finished) {
         fprintf(talk,
                 "interrupted, nothing is lost, and nothing is judged yet: the same command with "
@@ -301,7 +395,7 @@ int comparing_report(const comparing *of, fm_status status, const fm_error *err)
     }
     fprintf(talk, "%s/ab.csv, %s/pairs.csv; `fragmark compare %s/base %s/new` shows both runs\n",
             of->directory, of->directory, of->directory, of->directory);
-    return code_of(&of->result);
+    return code_of(of);
 }
 
 void comparing_free(comparing *of)
@@ -313,4 +407,10 @@ void comparing_free(comparing *of)
         plugin_list_close(&of->plugins[side]);
         text_list_free(&of->methods[side]);
     }
+}
+
+void comparing_arguments_free(comparing_arguments *given)
+{
+    text_list_free(&given->cases);
+    arguments_free(&given->selection);
 }

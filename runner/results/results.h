@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "bound/limits.h"
 #include "code/codes.h"
 #include "model/columns.h"
 #include "model/outcome.h"
@@ -52,10 +53,14 @@ typedef struct fm_case_result {
 typedef struct fm_results {
     const fm_plan *plan;
     const fm_plugin_list *plugins;
-    fm_case_result *cases;     /* [plan->count] */
-    fm_codes codes;            /* what the cases were measured by */
-    json_t *meshes;            /* by file: what was loaded, as answers say it */
-    double *fastest_canary_ns; /* of each device of the plan; INFINITY: none so far */
+    fm_case_result *cases;        /* [plan->count] */
+    fm_codes codes;               /* what the cases were measured by */
+    json_t *meshes;               /* by file: what was loaded, as answers say it */
+    const fm_limits_list *limits; /* of devices, for what a case needs at least; borrowed; NULL:
+                                     none are known. Whoever creates results sets it before rows are
+                                     written, and the next */
+    fm_limits_key host;           /* its cpu and cores */
+    double *fastest_canary_ns;    /* of each device of the plan; INFINITY: none so far */
     /* Of summary.csv: */
     size_t unwritten; /* cases that were finished since it was written */
     double written_at_s, took_s;
@@ -106,6 +111,8 @@ void summary_off_clock(bool *is_off_clock, const fm_results *results, size_t cas
 /* The names of the columns, and one row; both with their end of line. */
 void summary_header(fm_text *text);
 void summary_row(fm_text *text, const fm_results *results, size_t case_index);
+/* The case has times, and its device no limits. */
+bool summary_lacks_limits(const fm_results *results, size_t case_index);
 /* Column `noisy` of that row: noise.h. */
 void summary_noise(fm_text *text, const fm_results *results, size_t case_index);
 /* How far the row's frame_ms is known: half of its interval over it. NAN: there is no interval;

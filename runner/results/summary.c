@@ -8,69 +8,9 @@
 #include "decide/precision.h"
 #include "model/columns.h"
 #include "noise.h"
-#include "results.h"
+#include "summary_internal.h"
 
 static const double clock_slack = 1.4; /* a canary above this many of the fastest is off clock */
-
-/* What the columns of one row read. */
-typedef struct row_state {
-    const fm_results *results;
-    const fm_case *measured;
-    const fm_case_result *result;
-    const fm_plugin_entry *plugin; /* may be NULL */
-    size_t samples, excluded;      /* frames used and left out */
-    bool *is_off_clock;            /* [launch * frames + frame] */
-    double *values;                /* room for all samples */
-    uint32_t *groups;
-    double *by_launch; /* room for all launches */
-} row_state;
-
-static bool is_used(const row_state *row, const fm_kept_sample *sample)
-{
-    const uint32_t frames = row->results->plan->frames;
-    return sample->frame >= frames ||
-           !row->is_off_clock[(size_t)sample->launch * frames + sample->frame];
-}
-
-/* Gathers one metric's used samples of one launch, or of all. */
-static size_t gather(const row_state *row, fm_metric metric, uint32_t launch)
-{
-    size_t count = 0;
-    for (size_t i = 0; i < row->result->sample_count; i++) {
-        const fm_kept_sample *sample = &row->result->samples[i];
-        if (sample->metric != metric || (launch != UINT32_MAX && sample->launch != launch) ||
-            !is_used(row, sample))
-            continue;
-        row->values[count] = sample->value;
-        row->groups[count++] = sample->launch;
-    }
-    return count;
-}
-
-static double median_of(const row_state *row, fm_metric metric, uint32_t launch)
-{
-    return stats_median(row->values, gather(row, metric, launch));
-}
-
-/* Of the row's intervals; 0: the usual one. */
-static double coverage_of(const row_state *row)
-{
-    const fm_plan *plan = row->results->plan;
-    if (row->measured->settings.precision_percent <= 0.0)
-        return 0.0;
-    const uint32_t last = plan_case_launches(plan, (size_t)(row->measured - plan->cases));
-    return precision_coverage(last, row->result->done);
-}
-
-static fm_interval interval_of_frames(const row_state *row, fm_metric metric)
-{
-    const size_t count = gather(row, metric, UINT32_MAX);
-    return stats_by_launch(&(fm_samples){ .values = row->values,
-                                          .group_of = row->groups,
-                                          .count = count,
-                                          .group_count = row->results->plan->launches,
-                                          .coverage = coverage_of(row) });
-}
 
 static const char *method_version(const row_state *row)
 {
@@ -90,7 +30,7 @@ static void add_part(fm_text *message, const char *part)
 static void write_precision(char *text, size_t room, const row_state *row)
 {
     char wanted[FM_PATH_MAX_BYTES];
-    const fm_interval frame_ms = interval_of_frames(row, FM_METRIC_FRAME_MS);
+    const fm_interval frame_ms = summary_frames(row, FM_METRIC_FRAME_MS);
     const double half = 100.0 * precision_half_width(&frame_ms);
     const bool is_reached = half <= row->measured->settings.precision_percent;
     settings_text(wanted, &row->measured->settings, key_find("precision"));
@@ -138,15 +78,10 @@ static void write_key(fm_text *text, const row_state *row, const char *name)
         csv_add(text, value);
 }
 
-static const json_t *metric_of(const row_state *row, fm_metric metric)
-{
-    return json_object_get(row->result->metrics, fm_metrics[metric].name);
-}
-
 /* n before truth was there is what the recipe says. */
 static void write_case_metric(fm_text *text, const row_state *row, fm_metric metric)
 {
-    const json_t *value = metric_of(row, metric);
+    const json_t *value = summary_metric(row, metric);
     if (json_is_integer(value))
         text_add(text, "%lld", (long long)json_integer_value(value));
     else if (json_is_real(value))
@@ -198,7 +133,7 @@ static void add_noise(fm_text *text, const row_state *row)
 {
     const uint32_t launches = row->results->plan->launches;
     for (uint32_t i = 0; i < launches; i++)
-        row->by_launch[i] = median_of(row, FM_METRIC_FRAME_MS, i);
+        row->by_launch[i] = summary_median(row, FM_METRIC_FRAME_MS, i);
     noise_reasons(text, row->result, launches, row->by_launch);
 }
 
@@ -275,34 +210,19 @@ static void write_fact(fm_text *text, const row_state *row, fm_fact fact)
     case FM_FACT_REASON:
         csv_add(text, case_reason_name(row->result->reason));
         break;
+    case FM_FACT_LIMITED_BY:
+        csv_add(text, summary_limited_by(row));
+        break;
     case FM_FACT_COUNT:
         break;
     }
 }
 
-/* Store time, or the frame's where that is all that is timed, over the floor's, launch by launch:
- * both ran in one process, moments apart. */
-static fm_interval times_floor(const row_state *row)
-{
-    const bool is_span = row->measured->settings.timers == FM_TIMERS_FRAME;
-    size_t count = 0;
-    for (uint32_t i = 0; i < row->results->plan->launches; i++) {
-        const double ms = median_of(row, is_span ? FM_METRIC_FRAME_MS : FM_METRIC_STORE_MS, i);
-        const double floor_ms =
-            median_of(row, is_span ? FM_METRIC_FLOOR_FRAME_MS : FM_METRIC_FLOOR_STORE_MS, i);
-        if (!isnan(ms) && floor_ms > 0.0)
-            row->by_launch[count++] = ms / floor_ms;
-    }
-    const double coverage = coverage_of(row);
-    return coverage > 0.0 ? stats_interval_at(row->by_launch, count, coverage)
-                          : stats_interval(row->by_launch, count);
-}
-
 /* The slowest frame has the lowest rate. */
 static fm_interval fragments_per_s(const row_state *row)
 {
-    const json_t *fragments = metric_of(row, FM_METRIC_FRAGMENTS_GENERATED);
-    const fm_interval ms = interval_of_frames(row, FM_METRIC_FRAME_MS);
+    const json_t *fragments = summary_metric(row, FM_METRIC_FRAGMENTS_GENERATED);
+    const fm_interval ms = summary_frames(row, FM_METRIC_FRAME_MS);
     if (!json_is_number(fragments) || !(ms.median > 0.0))
         return (fm_interval){ NAN, NAN, NAN };
     const double per_ms = json_number_value(fragments) * 1e3;
@@ -313,10 +233,20 @@ static fm_interval fragments_per_s(const row_state *row)
 static fm_interval interval_of(const row_state *row, fm_metric metric)
 {
     if (metric == FM_METRIC_TIMES_FLOOR)
-        return times_floor(row);
+        return summary_times_floor(row);
+    if (metric == FM_METRIC_BOUND_MS)
+        return summary_bound_ms(row);
+    if (metric == FM_METRIC_TIMES_BOUND)
+        return summary_times_bound(row);
+    if (metric == FM_METRIC_DEVICE_BYTES_PER_S)
+        return summary_limit(row, FM_LIMIT_COPY);
+    if (metric == FM_METRIC_DEVICE_ATOMICS_PER_S)
+        return summary_limit(row, FM_LIMIT_ATOMICS_OWN);
+    if (metric == FM_METRIC_DEVICE_FRAGMENTS_PER_S)
+        return summary_limit(row, FM_LIMIT_RASTER);
     if (metric == FM_METRIC_FRAGMENTS_PER_S)
         return fragments_per_s(row);
-    return interval_of_frames(row, metric);
+    return summary_frames(row, metric);
 }
 
 static void write_distinct_images(fm_text *text, const row_state *row)
@@ -334,7 +264,7 @@ static void write_frames_drawn(fm_text *text, const row_state *row)
 /* A metric of launches: the largest. */
 static double largest_of(const row_state *row, fm_metric metric)
 {
-    const size_t count = gather(row, metric, UINT32_MAX);
+    const size_t count = summary_gather(row, metric, UINT32_MAX);
     double largest = NAN;
     for (size_t i = 0; i < count; i++)
         largest = fmax(largest, row->values[i]);
@@ -423,7 +353,7 @@ static void count_frames(row_state *row)
     size_t all = 0;
     for (size_t i = 0; i < row->result->sample_count; i++)
         all += row->result->samples[i].metric == FM_METRIC_FRAME_MS;
-    row->samples = gather(row, FM_METRIC_FRAME_MS, UINT32_MAX);
+    row->samples = summary_gather(row, FM_METRIC_FRAME_MS, UINT32_MAX);
     row->excluded = all - row->samples;
 }
 
@@ -489,7 +419,7 @@ fm_status summary_half_width(double *half_width, bool *has_times, const fm_resul
     *half_width = NAN;
     *has_times = false;
     if (open_row(&row, results, case_index)) {
-        const fm_interval frame_ms = interval_of_frames(&row, FM_METRIC_FRAME_MS);
+        const fm_interval frame_ms = summary_frames(&row, FM_METRIC_FRAME_MS);
         *half_width = precision_half_width(&frame_ms);
         *has_times = !isnan(frame_ms.median);
     } else

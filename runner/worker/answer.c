@@ -193,6 +193,25 @@ static void add_checked(json_t *metrics, const fm_measurement *m, const fm_truth
     answer_set_number(metrics, FM_METRIC_TRUNCATION_RMSE, m->truncation_rmse);
 }
 
+/* Empty where nothing was counted. */
+static void add_accesses(json_t *metrics, const fm_measurement *m)
+{
+    char name[96];
+    const fm_accesses all = measure_accesses(m);
+    if (m->accesses_count == 0)
+        return;
+    answer_set_count(metrics, FM_METRIC_BYTES_MOVED, all.loaded + all.stored);
+    answer_set_count(metrics, FM_METRIC_ATOMICS, all.atomics);
+    answer_set_count(metrics, FM_METRIC_ACCESSES_OUTSIDE, all.outside);
+    for (size_t i = 0; i < m->accesses_count; i++) {
+        const fm_accesses *counts = &m->accesses[i].counts;
+        snprintf(name, sizeof name, "moved.%s_b", m->accesses[i].name);
+        if (counts->loaded + counts->stored > 0)
+            json_object_set_new(metrics, name,
+                                json_integer((json_int_t)(counts->loaded + counts->stored)));
+    }
+}
+
 static void add_metrics(json_t *answer, const fm_answer_desc *desc)
 {
     const fm_measurement *m = desc->measurement;
@@ -212,6 +231,7 @@ static void add_metrics(json_t *answer, const fm_answer_desc *desc)
     if (m->is_checked) {
         add_checked(metrics, m, desc->truth);
         add_culled(metrics, desc);
+        add_accesses(metrics, m);
     }
     for (uint32_t i = 0; i < m->sample_count; i++)
         add_frame(samples, i, &m->samples[i], desc);
@@ -265,12 +285,31 @@ static void add_timed_part(json_t *launch, const fm_host_load *begin, const fm_h
     add_known(launch, FM_METRIC_CLOCK_SHARE, end->clock_share);
 }
 
-void answer_add_launch(json_t *answer, const fm_measurement *m)
+static const char *const part_names[PART_COUNT] = {
+    [PART_START] = "start",   [PART_SCENE] = "scene",   [PART_COMPILE] = "compile",
+    [PART_WARMUP] = "warmup", [PART_FRAMES] = "frames", [PART_FLOOR] = "floor",
+    [PART_IMAGES] = "images", [PART_CHECK] = "check",   [PART_ERRORS] = "errors",
+    [PART_END] = "end",
+};
+
+/* Of a launch that measured: parts of others are of no use. */
+static void add_parts(json_t *launch, launch_parts *parts)
+{
+    char name[64];
+    for (int part = 0; part < PART_COUNT; part++) {
+        snprintf(name, sizeof name, "launch.%s_ms", part_names[part]);
+        json_object_set_new(launch, name, json_real(part_ms(parts, (launch_part)part)));
+    }
+}
+
+void answer_add_launch(json_t *answer, const fm_measurement *m, launch_parts *parts)
 {
     json_t *launch = json_object();
     add_known(launch, FM_METRIC_LAUNCH_CPU_S, host_load_own_cpu_s());
     if (m->sample_count > 0)
         add_timed_part(launch, &m->begin, &m->end);
+    if (m->sample_count > 0)
+        add_parts(launch, parts);
     if (m->has_new_images) {
         answer_set_number(launch, FM_METRIC_FRAMES_RMSE_MAX, m->frames_worst.rmse);
         answer_set_number(launch, FM_METRIC_FRAMES_MAX_ABS, m->frames_worst.max_abs);

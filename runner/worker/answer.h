@@ -26,8 +26,9 @@ void answer_add_sample(json_t *samples, uint32_t frame, fm_metric metric, double
 
 void answer_add_measured(json_t *answer, const fm_answer_desc *desc);
 /* How busy the host was during this launch, as far as the system tells, and how wrong the images
- * were that it was the first to draw. m: its sample_count is 0 where no frames were timed. */
-void answer_add_launch(json_t *answer, const fm_measurement *m);
+ * were that it was the first to draw; and where its time went until now. m: its sample_count is 0
+ * where no frames were timed. */
+void answer_add_launch(json_t *answer, const fm_measurement *m, launch_parts *parts);
 void answer_add_truth(json_t *answer, const fm_truth *truth);
 
 #endif

@@ -14,6 +14,7 @@ fm_status measure_case(fm_measurement *measurement, const fm_measure_desc *desc,
     fm_status status = measure_times(measurement, desc, err);
     if (status == FM_OK && desc->check)
         status = measure_check_fragments(measurement, desc, err);
+    parts_enter(desc->parts, PART_ERRORS);
     if (status == FM_OK && desc->check)
         status = measure_check_images(measurement, desc, err);
     if (measurement->range.low != NULL) {
@@ -23,10 +24,24 @@ fm_status measure_case(fm_measurement *measurement, const fm_measure_desc *desc,
     return status;
 }
 
+fm_accesses measure_accesses(const fm_measurement *measurement)
+{
+    fm_accesses sum = { 0 };
+    for (size_t i = 0; i < measurement->accesses_count; i++) {
+        const fm_accesses *counts = &measurement->accesses[i].counts;
+        sum.loaded += counts->loaded;
+        sum.stored += counts->stored;
+        sum.atomics += counts->atomics;
+        sum.outside += counts->outside;
+    }
+    return sum;
+}
+
 void measurement_free(fm_measurement *measurement)
 {
     free(measurement->samples);
     free(measurement->image_hashes);
+    free(measurement->accesses);
     image_destroy(measurement->image);
     image_destroy(measurement->truth_image);
     image_range_free(&measurement->range);

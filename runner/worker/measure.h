@@ -7,6 +7,7 @@
 #include "image/image_error.h"
 #include "image/image_range.h"
 #include "instance/instance.h"
+#include "parts.h"
 #include "truth/check.h"
 #include "truth/truth.h"
 
@@ -26,6 +27,12 @@ typedef struct fm_sample {
     uint64_t canary_ns;
     uint64_t floor_store_ns, floor_frame_ns;
 } fm_sample;
+
+/* What a frame did with one of the method's resources. */
+typedef struct fm_resource_accesses {
+    char name[64]; /* or "fm_locks" */
+    fm_accesses counts;
+} fm_resource_accesses;
 
 typedef struct fm_measurement {
     fm_sample *samples; /* [sample_count]; owned */
@@ -61,6 +68,10 @@ typedef struct fm_measurement {
     uint32_t captured_frames, distinct_fragments;
     uint64_t missing_max;             /* of any captured frame */
     uint64_t culled, locked, arrived; /* as of a frame: fm_frame_result */
+    fm_resource_accesses *accesses;   /* [accesses_count], of the first captured frame; owned. None
+                                         where the device does not count, or `uncounted` says why */
+    size_t accesses_count;
+    char uncounted[256];
     /* Timed image against its own fragments composited in double; where a tie leaves their order
      * open, against what that allows (truth/reference.h), as in all that follows. */
     double self_max_abs;
@@ -83,13 +94,17 @@ typedef struct fm_measure_desc {
     const uint64_t *known_images; /* [known_count]: hashes of images that earlier launches drew and
                                      compared; they are not compared again */
     size_t known_count;
-    const char *keep; /* file for the captured fragments (truth/kept_file.h); NULL or "": none */
+    launch_parts *parts; /* NULL: nobody asks */
+    const char *keep;    /* file for the captured fragments (truth/kept_file.h); NULL or "": none */
 } fm_measure_desc;
 
 /* Fragments of a pixel that truth wants of a method: UINT32_MAX means all. */
 uint32_t measure_wanted(const fm_method_desc *method, uint32_t k);
 /* Fragments of a pixel that it has places for, as truth_kept counts them: 0 means all. */
 uint32_t measure_places(const fm_method_desc *method, uint32_t k);
+
+/* Of all resources together. */
+fm_accesses measure_accesses(const fm_measurement *measurement);
 
 /* FM_IO with is_own: the fragments cannot be kept. */
 fm_status measure_case(fm_measurement *measurement, const fm_measure_desc *desc, fm_error *err);

@@ -1,5 +1,6 @@
 /* The check of a launch: every fragment that the method hands over, and the picture. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <xxhash.h>
@@ -177,6 +178,26 @@ static void note_counts(checking *check, const fm_frame_result *result)
     m->arrived = result->arrived;
 }
 
+/* Of the first frame that is captured. */
+static fm_status note_accesses(checking *check, const fm_instance *instance, fm_error *err)
+{
+    fm_measurement *m = check->measurement;
+    fm_accesses counts;
+    const char *name;
+    if (m->accesses != NULL)
+        return FM_OK;
+    snprintf(m->uncounted, sizeof m->uncounted, "%s", instance_uncounted(instance));
+    m->accesses = calloc(FM_MAX_RESOURCES + 1, sizeof m->accesses[0]);
+    if (m->accesses == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "accesses of %d resources", FM_MAX_RESOURCES);
+    while (instance_accesses(&counts, &name, instance, m->accesses_count)) {
+        fm_resource_accesses *resource = &m->accesses[m->accesses_count++];
+        snprintf(resource->name, sizeof resource->name, "%s", name);
+        resource->counts = counts;
+    }
+    return FM_OK;
+}
+
 static fm_status check_bands(checking *check, fm_instance *instance, fm_error *err)
 {
     const uint64_t pixels = (uint64_t)check->truth->width_px * check->truth->height_px;
@@ -191,6 +212,8 @@ static fm_status check_bands(checking *check, fm_instance *instance, fm_error *e
         } else {
             status = measure_frame(&result, check->measurement, instance, &band, err);
             note_counts(check, &result);
+            if (status == FM_OK)
+                status = note_accesses(check, instance, err);
         }
         if (status == FM_OK)
             status = check_band(check, &band, err);
@@ -291,8 +314,11 @@ fm_status measure_check_fragments(fm_measurement *measurement, const fm_measure_
     fm_status status = create_checking(&check, desc, err);
     capture.is_capture = true;
     capture.capture_slots = check.slots;
+    capture.counts_accesses = true;
+    parts_enter(desc->parts, PART_COMPILE);
     if (status == FM_OK)
         status = instance_create(&instance, &capture, err);
+    parts_enter(desc->parts, PART_CHECK);
     if (status == FM_OK)
         status = begin_keeping(&check, &kept, desc->keep, err);
     if (status == FM_OK)

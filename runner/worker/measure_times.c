@@ -59,7 +59,9 @@ static fm_status sample_floor(fm_sample *sample, fm_measurement *measurement,
                               const launch_pair *pair, fm_error *err)
 {
     fm_frame_result result;
+    const launch_part before = parts_enter(pair->desc->parts, PART_FLOOR);
     fm_status status = instance_frame(&result, pair->floor, NULL, err);
+    parts_enter(pair->desc->parts, before);
     measurement->is_floors = status != FM_OK;
     sample->floor_frame_ns = frame_passes_ns(&result);
     sample->floor_store_ns = store_time(&result, pair->desc->floor->method);
@@ -98,11 +100,14 @@ static fm_status take_samples(fm_measurement *measurement, const launch_pair *pa
     frame_images images;
     fm_sample ignored;
     bool is_long = false;
+    parts_enter(desc->parts, PART_IMAGES);
     fm_status status = frame_images_begin(&images, measurement, desc, err);
+    parts_enter(desc->parts, PART_WARMUP);
     for (uint32_t i = 0; i < desc->warmup && status == FM_OK && !is_long; i++) {
         status = sample_once(&ignored, measurement, pair, false, err);
         is_long = i > 0 && ignored.wall_ns > MEASURE_LONG_FRAME_NS;
     }
+    parts_enter(desc->parts, PART_IMAGES);
     if (status == FM_OK && desc->warmup > 0)
         status = frame_images_expect(&images, pair->method, err);
     measurement->lost = 0;
@@ -111,7 +116,9 @@ static fm_status take_samples(fm_measurement *measurement, const launch_pair *pa
         fm_sample *sample = &measurement->samples[i];
         if (is_long && i >= LONG_FRAME_SAMPLES)
             break;
+        parts_enter(desc->parts, PART_FRAMES);
         status = sample_once(sample, measurement, pair, i % 2 == 1, err);
+        parts_enter(desc->parts, PART_IMAGES);
         is_long = is_long || sample->wall_ns > MEASURE_LONG_FRAME_NS;
         measurement->sample_count = i + 1;
         if (status == FM_OK)
@@ -143,6 +150,7 @@ fm_status measure_times(fm_measurement *measurement, const fm_measure_desc *desc
     fm_instance *method = NULL, *floor = NULL;
     fm_instance_desc timed = *desc->method;
     timed.hashes_image = true;
+    parts_enter(desc->parts, PART_COMPILE);
     fm_status status = instance_create(&floor, desc->floor, err);
     measurement->is_floors = status != FM_OK;
     if (status == FM_OK)

@@ -1,9 +1,11 @@
 #include "protocol.h"
 
+#include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/text.h"
 #include "code/code_json.h"
@@ -177,6 +179,21 @@ void answer_add_note(json_t *answer, const char *note)
     if (!all.failed)
         json_object_set_new(answer, "message", any_text(all.bytes));
     text_free(&all);
+}
+
+int answer_write(const json_t *answer, const char *path)
+{
+    int written = json_dump_file(answer, path, JSON_INDENT(1));
+    if (written == 0)
+        return 0;
+    const int cause = errno;
+    char message[FM_PATH_MAX_BYTES + 128];
+    unlink(path);
+    snprintf(message, sizeof message, "%s: %s", path, strerror(cause));
+    json_t *reason = answer_make_runs_fault(message);
+    written = json_dump_file(reason, path, 0);
+    json_decref(reason);
+    return written == 0 ? 0 : WORKER_EXIT_NO_ANSWER;
 }
 
 fm_case_status answer_status(const json_t *answer)

@@ -2,7 +2,8 @@
 /* The protocol between the parent of a run and its workers: the only place that spells its fields.
  *
  * The parent executes `fragmark worker REQUEST.json ANSWER.json`. The request says what to do:
- *   { "job": "measure", "truth", "mesh" or "device",
+ *   { "protocol": 1,                        FM_PROTOCOL; a worker refuses another one
+ *     "job": "measure", "truth", "mesh" or "device",
  *     "plugin": "path of the method's .so",
  *     "floor": "path of the floor's .so, or empty",
  *     "common": "folder of the runner's GLSL",
@@ -11,6 +12,7 @@
  *     "settings": { "k": "8", ... },        every key of fm_keys, as text
  *     "options": { "layout": "layer" },     the method's own, each with its value
  *     "truth": "path of the truth file", "launch": 0,
+ *     "cache": "folder of what other launches left, or empty",
  *     "check": true,                        capture and compare all fragments
  *     "image": "path to write the image to, or empty",
  *     "range": "path, without its ending, for what its new images reach, or empty",
@@ -60,6 +62,10 @@
 #include "model/settings.h"
 #include "truth/kept_file.h"
 
+/* Raised when a field above is added, goes, or means something else: workers of a build with
+ * another number are not asked (program/handshake.h). */
+enum { FM_PROTOCOL = 1 };
+
 /* What a worker is asked. All borrowed. */
 typedef struct fm_request {
     bool is_truth_job;
@@ -71,6 +77,7 @@ typedef struct fm_request {
     const fm_choice *choices; /* of the method's options; its first value for what is missing */
     size_t choice_count;
     const char *truth; /* path of the truth file */
+    const char *cache; /* folder of the cache (cache/cache.h); "" or NULL: none */
     const char *image; /* path of the image to be written; "": none */
     const char *range; /* prefix of image/image_range.h; "" or NULL: none */
     /* [known_count]: hashes of what earlier launches drew. Of very many only the first are written:
@@ -106,7 +113,8 @@ typedef struct fm_read_request {
     json_t *json;           /* holds the texts */
 } fm_read_request;
 
-/* FM_IO: no such file, or no JSON. FM_INVALID: an unknown key, an illegal value, too many options;
+/* FM_IO: no such file, or no JSON. FM_INVALID: another protocol, an unknown key, an illegal value,
+ * too many options;
  * FM_NO_MEMORY.
  * request_free also after a failure. */
 fm_status request_read(fm_read_request *read, const char *path, fm_error *err);
@@ -143,6 +151,9 @@ json_t *answer_make_runs_fault(const char *message);
 /* Adds to the message: "; NOTE". What has no room then is cut from the end of the message, and of a
  * note that has none alone. */
 void answer_add_note(json_t *answer, const char *note);
+/* Writes it; one that does not fit is tried once more with the reason alone. Returns the worker's
+ * exit status. */
+int answer_write(const json_t *answer, const char *path);
 
 /* Reading an answer: the parent's side. */
 

@@ -57,15 +57,18 @@ fm_status request_write(const char *path, const fm_request *request, fm_error *e
     const size_t known = request->known_count < REQUEST_KNOWN_MOST ? request->known_count
                                                                    : (size_t)REQUEST_KNOWN_MOST;
     json_t *object = json_pack(
-        "{s:s, s:s, s:s, s:s, s:s, s:b, s:b, s:s, s:o, s:o, s:s, s:i, s:b, s:s, s:s, s:o}", "job",
-        job_of(request), "plugin", request->plugin, "floor", request->floor, "common",
-        request->common, "device", request->device, "validation", (int)request->validation,
-        "no_timers", (int)request->no_timers, "feed", request->feed, "settings",
-        settings_json(request->settings), "options", options_json(request), "truth", request->truth,
-        "launch", (int)request->launch, "check", (int)request->check, "image", request->image,
-        "range", request->range != NULL ? request->range : "", "known_images",
+        "{s:i, s:s, s:s, s:s, s:s, s:s, s:b, s:b, s:s, s:o, s:o, s:s, s:i, s:b, s:s, s:s, s:o}",
+        "protocol", FM_PROTOCOL, "job", job_of(request), "plugin", request->plugin, "floor",
+        request->floor, "common", request->common, "device", request->device, "validation",
+        (int)request->validation, "no_timers", (int)request->no_timers, "feed", request->feed,
+        "settings", settings_json(request->settings), "options", options_json(request), "truth",
+        request->truth, "launch", (int)request->launch, "check", (int)request->check, "image",
+        request->image, "range", request->range != NULL ? request->range : "", "known_images",
         json_hashes(request->known_images, known));
-    const bool is_whole = add_keep(object, request);
+    const bool is_whole =
+        add_keep(object, request) &&
+        json_object_set_new(object, "cache",
+                            json_string(request->cache != NULL ? request->cache : "")) == 0;
     char *text = is_whole ? json_dumps(object, JSON_INDENT(1)) : NULL;
     const fm_status status =
         text != NULL ? text_write_file(path, text, strlen(text), err)
@@ -136,25 +139,16 @@ static const struct {
     const char *name;
     json_type type;
 } request_fields[] = {
-    { "job", JSON_STRING },
-    { "plugin", JSON_STRING },
-    { "floor", JSON_STRING },
-    { "common", JSON_STRING },
-    { "device", JSON_STRING },
-    { "validation", JSON_TRUE },
-    { "no_timers", JSON_TRUE },
-    { "feed", JSON_STRING },
-    { "settings", JSON_OBJECT },
-    { "options", JSON_OBJECT },
-    { "truth", JSON_STRING },
-    { "launch", JSON_INTEGER },
-    { "check", JSON_TRUE },
-    { "image", JSON_STRING },
-    { "range", JSON_STRING },
-    { "known_images", JSON_ARRAY },
-    { "keep_fragments", JSON_STRING },
-    { "keep_truth", JSON_STRING },
-    { "keep_frames", JSON_STRING },
+    { "job", JSON_STRING },         { "plugin", JSON_STRING },
+    { "floor", JSON_STRING },       { "common", JSON_STRING },
+    { "device", JSON_STRING },      { "validation", JSON_TRUE },
+    { "no_timers", JSON_TRUE },     { "feed", JSON_STRING },
+    { "settings", JSON_OBJECT },    { "options", JSON_OBJECT },
+    { "truth", JSON_STRING },       { "cache", JSON_STRING },
+    { "launch", JSON_INTEGER },     { "check", JSON_TRUE },
+    { "image", JSON_STRING },       { "range", JSON_STRING },
+    { "known_images", JSON_ARRAY }, { "keep_fragments", JSON_STRING },
+    { "keep_truth", JSON_STRING },  { "keep_frames", JSON_STRING },
 };
 
 /* The parent writes all of them; what lacks one was not written by it. */
@@ -162,6 +156,10 @@ static fm_status check_request(const json_t *json, const char *path, fm_error *e
 {
     static const char *const jobs[] = { truth_job, mesh_job, device_job, measure_job };
     bool is_job = false;
+    const json_t *protocol = json_object_get(json, "protocol");
+    if (!json_is_integer(protocol) || json_integer_value(protocol) != FM_PROTOCOL)
+        return fm_fail(err, FM_INVALID, "%s: no request of protocol %d, which this program speaks",
+                       path, FM_PROTOCOL);
     for (size_t i = 0; i < sizeof request_fields / sizeof request_fields[0]; i++) {
         const json_t *value = json_object_get(json, request_fields[i].name);
         const json_type type = request_fields[i].type;
@@ -218,6 +216,7 @@ fm_status request_read(fm_read_request *read, const char *path, fm_error *err)
         .settings = &read->settings,
         .choices = read->choices,
         .truth = json_text_in(json, "truth"),
+        .cache = json_text_in(json, "cache"),
         .image = json_text_in(json, "image"),
         .range = json_text_in(json, "range"),
         .check = json_is_set(json, "check"),

@@ -56,6 +56,24 @@ bool verdict_frames_are_wrong(fm_error *err, const fm_technique_outcome *outcome
     return is_exact;
 }
 
+/* What such an access reads or writes is another's, and nothing says that it stays without harm on
+ * the next device. */
+bool verdict_accesses(char text[VERDICT_ACCESSES_BYTES], const fm_measurement *m)
+{
+    size_t length = 0;
+    text[0] = '\0';
+    if (m->uncounted[0] != '\0')
+        length = (size_t)snprintf(text, VERDICT_ACCESSES_BYTES, "bytes_moved is not counted: %s",
+                                  m->uncounted);
+    for (size_t i = 0; i < m->accesses_count && length < VERDICT_ACCESSES_BYTES; i++)
+        if (m->accesses[i].counts.outside > 0)
+            length += (size_t)snprintf(
+                text + length, VERDICT_ACCESSES_BYTES - length,
+                "%sOUT OF RANGE: %" PRIu64 " accesses beyond the end of '%s'",
+                length > 0 ? "; " : "", m->accesses[i].counts.outside, m->accesses[i].name);
+    return length > 0;
+}
+
 bool verdict_loss(char text[VERDICT_LOSS_BYTES], const fm_check *check)
 {
     const uint64_t at_one = check->excused.at_depth_one, ties = check->excused.of_ties;

@@ -8,6 +8,8 @@
 
 #include "answer.h"
 #include "capture/truth_capture.h"
+#include "capture/truth_kept.h"
+#include "device/library.h"
 #include "generators/generate.h"
 #include "image/image_files.h"
 #include "measure.h"
@@ -39,6 +41,8 @@ typedef struct launch_job {
     fm_stage *stage;
     char hull[FM_PATH_MAX_BYTES + 8]; /* beside the truth, for later launches of the scene */
     fm_measurement measurement;
+    launch_parts parts;
+    fm_cache cache;
     fm_technique_outcome sequence; /* of a technique */
     fm_code code;                  /* what was loaded and read */
     fm_error error;
@@ -67,31 +71,18 @@ static fm_status refuse_scene(launch_job *job, fm_status status)
     return fm_error_refuse(&job->error, status, FM_REASON_SCENE);
 }
 
-/* The program's own devices are as it is. */
-static uint64_t hash_driver(const fm_device_caps *caps, uint64_t program)
-{
-    const char *const texts[] = { caps->driver_build, caps->name, caps->driver, caps->api };
-    uint64_t mixed = 0;
-    if (caps->driver_build[0] == '\0')
-        return program;
-    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
-        const uint64_t both[] = { mixed, code_hash(texts[i], strlen(texts[i])) };
-        mixed = code_hash(both, sizeof both);
-    }
-    return mixed;
-}
-
 static fm_status open_device(launch_job *job)
 {
     const fm_device_desc desc = { .validation = job->request->validation,
-                                  .no_timers = job->request->no_timers };
+                                  .no_timers = job->request->no_timers,
+                                  .cache = &job->cache };
     fm_status status =
         device_open(&job->device, job->devices, job->request->device, &desc, &job->error);
     job->is_devices = status != FM_OK && status != FM_UNSUPPORTED;
     if (status != FM_OK)
         return status;
     answer_set_device(job->answer, &job->device->caps);
-    job->code.driver = hash_driver(&job->device->caps, job->code.program);
+    job->code.driver = device_build_hash(&job->device->caps, job->code.program);
     return FM_OK;
 }
 
@@ -136,16 +127,6 @@ static bool is_bad_input(fm_status status)
     return status == FM_IO || status == FM_INVALID || status == FM_SHADER;
 }
 
-/* What the world does to whoever opens or writes a file, whoever that is. */
-static bool names_the_world(const char *message)
-{
-    static const int causes[] = { ENOSPC, EDQUOT, EFBIG, EMFILE, ENFILE, EROFS, EIO };
-    for (size_t i = 0; i < sizeof causes / sizeof causes[0]; i++)
-        if (strstr(message, strerror(causes[i])) != NULL)
-            return true;
-    return false;
-}
-
 /* What the run itself writes and reads, its requests, and what fragmark brings: GLSL of the runner
  * and the floor; and a device that cannot be opened. Disks fill, somebody deletes, an installation
  * breaks; no method did anything wrong. */
@@ -157,7 +138,7 @@ static bool is_runs_fault(const launch_job *job, fm_status status)
         return true;
     if (job->is_leaking && strstr(job->error.message, strerror(EMFILE)) != NULL)
         return false;
-    if ((status == FM_IO || job->is_opening) && names_the_world(job->error.message))
+    if ((status == FM_IO || job->is_opening) && fm_error_is_the_worlds(&job->error))
         return true;
     if (job->measurement.is_floors)
         return is_bad_input(status);
@@ -240,10 +221,35 @@ static fm_status frames_job(launch_job *job)
     return status;
 }
 
+/* What was captured before is what would be captured; who continues the run compares all GLSL. */
+static fm_status capture(launch_job *job, const char *path)
+{
+    const char *common = job->request->common;
+    const fm_shader_folders folders = { .method = common, .common = common, .code = &job->code };
+    const truth_origin origin = { .settings = &job->settings,
+                                  .feed = job->request->feed,
+                                  .caps = &job->device->caps,
+                                  .driver = job->code.driver,
+                                  .common = common };
+    fm_code glsl = { 0 };
+    fm_status status = FM_OK;
+    const cache_key key = truth_key(&glsl, &job->cache, &origin);
+    if (cache_read_file(path, &job->cache, CACHE_TRUTH, &key)) {
+        code_join(&job->code, &glsl);
+    } else {
+        status = open_scene(job);
+        if (status == FM_OK)
+            status = truth_capture(path, job->device, job->scene, job->feed, &folders, &job->error);
+        if (status == FM_OK && !glsl.failed)
+            cache_write_file(&job->cache, CACHE_TRUTH, &key, path);
+    }
+    code_free(&glsl);
+    return status;
+}
+
 static fm_status truth_job(launch_job *job)
 {
-    const char *path = job->request->truth, *common = job->request->common;
-    const fm_shader_folders folders = { .method = common, .common = common, .code = &job->code };
+    const char *path = job->request->truth;
     fm_status status = refuse_scene(job, settings_finish(&job->settings, &job->error));
     if (status != FM_OK)
         return status;
@@ -254,9 +260,7 @@ static fm_status truth_job(launch_job *job)
     if (status == FM_OK)
         status = open_device(job);
     if (status == FM_OK)
-        status = open_scene(job);
-    if (status == FM_OK)
-        status = truth_capture(path, job->device, job->scene, job->feed, &folders, &job->error);
+        status = capture(job, path);
     if (status == FM_OK)
         status = truth_open(&job->truth, path, &job->error);
     if (status != FM_OK)
@@ -294,6 +298,7 @@ static fm_status measure(launch_job *job)
                                    .check = job->request->check,
                                    .known_images = job->request->known_images,
                                    .known_count = job->request->known_count,
+                                   .parts = &job->parts,
                                    .keep = job->request->keep[KEPT_FRAGMENTS] };
     return measure_case(&job->measurement, &desc, &job->error);
 }
@@ -339,8 +344,11 @@ static fm_status open_truth(launch_job *job)
 
 static void add_notes(launch_job *job)
 {
+    char accesses[VERDICT_ACCESSES_BYTES];
     if (job->truth->fragment_count == 0)
         note(job, "%s", FM_NOTHING_DRAWN);
+    if (verdict_accesses(accesses, &job->measurement))
+        note(job, "%s", accesses);
     if (job->measurement.is_long)
         note(job, "frames over 2 s: %u samples a launch, the interval is wide",
              job->measurement.sample_count);
@@ -355,6 +363,7 @@ static fm_status measure_job(launch_job *job)
         status = read_feed(job);
     if (status == FM_OK)
         status = open_device(job);
+    parts_enter(&job->parts, PART_SCENE);
     if (status == FM_OK)
         status = open_scene(job);
     if (status == FM_OK)
@@ -367,6 +376,7 @@ static fm_status measure_job(launch_job *job)
         job->stage->hull_cache = job->hull;
         status = run_method(job);
     }
+    parts_enter(&job->parts, PART_END);
     if (status == FM_OK)
         status = truth_keep(job->request->keep[KEPT_TRUTH], job->request->truth, job->truth,
                             &job->error);
@@ -405,6 +415,7 @@ static void release(launch_job *job)
     truth_close(job->truth);
     scene_destroy(job->scene);
     device_close(job->device);
+    cache_close(&job->cache);
     plugin_close(job->floor);
     plugin_close(job->method);
     hook_mark_close(job->mark);
@@ -449,34 +460,21 @@ static void note_left_open(launch_job *job, uint32_t count)
         note(job, "%s left %u files open", job->method->method->id, count);
 }
 
-/* An answer that does not fit is tried once more with the reason alone. */
-static int write_answer(const json_t *answer, const char *path)
-{
-    int written = json_dump_file(answer, path, JSON_INDENT(1));
-    if (written == 0)
-        return 0;
-    const int cause = errno;
-    char message[FM_PATH_MAX_BYTES + 128];
-    unlink(path);
-    snprintf(message, sizeof message, "%s: %s", path, strerror(cause));
-    json_t *reason = answer_make_runs_fault(message);
-    written = json_dump_file(reason, path, 0);
-    json_decref(reason);
-    return written == 0 ? 0 : WORKER_EXIT_NO_ANSWER;
-}
-
 int worker_main(const char *request_path, const char *answer_path, const fm_device_list *devices)
 {
     char mark_path[FM_PATH_MAX_BYTES];
     snprintf(mark_path, sizeof mark_path, WORKER_HOOK_FILE, answer_path);
     launch_job job = { .devices = devices, .answer = json_object(), .mark_path = mark_path };
     fm_open_files files;
+    parts_begin(&job.parts);
     open_files_begin(&files);
     job.request = &job.read.request;
     fm_status status = request_read(&job.read, request_path, &job.error);
     job.has_request = status == FM_OK;
     job.settings = job.read.settings;
     job.code.program = code_hash_file("/proc/self/exe");
+    if (status == FM_OK)
+        cache_open(&job.cache, job.request->cache, job.code.program);
     if (status == FM_OK)
         status = job.request->is_mesh_job     ? open_scene(&job)
                  : job.request->is_device_job ? open_device(&job)
@@ -495,8 +493,8 @@ int worker_main(const char *request_path, const char *answer_path, const fm_devi
     }
     answer_set_code(job.answer, &job.code);
     if (!job.request->is_truth_job)
-        answer_add_launch(job.answer, &job.measurement);
-    const int code = write_answer(job.answer, answer_path);
+        answer_add_launch(job.answer, &job.measurement, &job.parts);
+    const int code = answer_write(job.answer, answer_path);
     release(&job);
     return code;
 }

@@ -332,6 +332,30 @@ static void decided_cases_stay_as_they_are(void **state)
     assert_int_equal(of.cases[1].judged[AB_CPU].pairs, 40);
 }
 
+/* The p beside a verdict is the one that led to it, whatever the others' tests say later. */
+static void decided_cases_keep_the_p_that_decided_them(void **state)
+{
+    (void)state;
+    made_up of;
+    double adjusted[AB_STATISTIC_COUNT];
+    begin(&of, 2);
+    fill_both(&of, 0, 0.05, 0.08);
+    fill_both(&of, 1, 0.0, 0.2);
+    of.cases[1].least[AB_CPU] = of.cases[1].least[AB_TIME] = 1e-9;
+    look(&of, 0);
+    assert_true(of.cases[0].is_decided);
+    assert_false(of.cases[1].is_decided);
+    for (int s = 0; s < AB_STATISTIC_COUNT; s++)
+        adjusted[s] = of.cases[0].judged[s].adjusted;
+    fill_both(&of, 1, 0.10, 0.01); /* now it is certain, and others are the less doubtful for it */
+    look(&of, 1);
+    for (int s = 0; s < AB_STATISTIC_COUNT; s++) {
+        assert_near(of.cases[0].judged[s].adjusted, adjusted[s], 0.0);
+        /* It is still one of four tests, and none of the others is as certain. */
+        assert_true(of.cases[1].judged[s].adjusted > 1.9 * of.cases[1].judged[s].p);
+    }
+}
+
 static void case_without_pairs_is_unmeasured(void **state)
 {
     (void)state;
@@ -397,6 +421,7 @@ int main(void)
         cmocka_unit_test(band_is_what_the_machine_can_detect_where_it_is_noisy),
         cmocka_unit_test(many_cases_take_more_to_be_worse),
         cmocka_unit_test(decided_cases_stay_as_they_are),
+        cmocka_unit_test(decided_cases_keep_the_p_that_decided_them),
         cmocka_unit_test(case_without_pairs_is_unmeasured),
         cmocka_unit_test(missing_pairs_are_left_out),
         cmocka_unit_test(case_that_is_out_is_not_judged),

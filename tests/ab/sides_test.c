@@ -1,12 +1,10 @@
-/* BASE and NEW: which folders they mean, which cases both have, and whose launch is first. */
+/* BASE and NEW: what names them, which cases both have, and whose launch is first. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <cmocka.h>
 
@@ -55,24 +53,6 @@ static void method_and_folder_are_parted_at_the_first_at(void **state)
     assert_non_null(strstr(err.message, "METHOD@DIR"));
     assert_int_equal(side_parse(method, &folder, "@dir", NULL), FM_INVALID);
     assert_int_equal(side_parse(method, &folder, "kb@", NULL), FM_INVALID);
-}
-
-static void build_means_its_methods(void **state)
-{
-    (void)state;
-    char build[] = "/tmp/fragmark-sides-XXXXXX", inside[64], folder[FM_PATH_MAX_BYTES];
-    fm_error err = { 0 };
-    assert_non_null(mkdtemp(build));
-    assert_int_equal(side_find_folder(folder, build, NULL), FM_OK);
-    assert_string_equal(folder, build);
-    snprintf(inside, sizeof inside, "%s/methods", build);
-    assert_int_equal(mkdir(inside, 0700), 0);
-    assert_int_equal(side_find_folder(folder, build, NULL), FM_OK);
-    assert_string_equal(folder, inside);
-    rmdir(inside);
-    rmdir(build);
-    assert_int_equal(side_find_folder(folder, build, &err), FM_IO);
-    assert_non_null(strstr(err.message, build));
 }
 
 static void cases_are_joined_by_what_they_were_asked_for(void **state)
@@ -172,14 +152,41 @@ static void sides_take_turns_and_cases_begin_by_the_seed(void **state)
     assert_true(begin_with_new > 16 && begin_with_new < 48);
 }
 
+/* By the id of either side; the partner's id is another one. */
+static void chosen_cases_stay_with_their_partners(void **state)
+{
+    made_plan base = { 0 }, now = { 0 };
+    fm_text_list ids = { 0 };
+    fm_error err = { 0 };
+    (void)state;
+    for (uint32_t k = 1; k <= CASES; k++) {
+        add_case(&base, "kb", k);
+        add_case(&now, "kb", k);
+        snprintf(base.cases[k - 1].id, sizeof base.cases[0].id, "old%u", k);
+        snprintf(now.cases[k - 1].id, sizeof now.cases[0].id, "new%u", k);
+    }
+    assert_true(text_list_add(&ids, "new2") && text_list_add(&ids, "old4"));
+    assert_int_equal(sides_choose(&base.plan, &now.plan, &ids, NULL), FM_OK);
+    assert_int_equal(base.plan.count, 2);
+    assert_int_equal(now.plan.count, 2);
+    assert_string_equal(base.plan.cases[0].id, "old2");
+    assert_string_equal(now.plan.cases[1].id, "new4");
+    assert_true(text_list_add(&ids, "new9"));
+    assert_int_equal(sides_choose(&base.plan, &now.plan, &ids, &err), FM_INVALID);
+    assert_non_null(strstr(err.message, "new9"));
+    text_list_free(&ids);
+    free_made(&now);
+    free_made(&base);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(method_and_folder_are_parted_at_the_first_at),
-        cmocka_unit_test(build_means_its_methods),
         cmocka_unit_test(cases_are_joined_by_what_they_were_asked_for),
         cmocka_unit_test(two_methods_can_be_compared_where_each_side_has_one),
         cmocka_unit_test(what_one_side_cannot_run_is_not_run_on_the_other),
+        cmocka_unit_test(chosen_cases_stay_with_their_partners),
         cmocka_unit_test(refused_method_stands_for_all_its_cases),
         cmocka_unit_test(sides_take_turns_and_cases_begin_by_the_seed),
     };

@@ -67,12 +67,60 @@ want 0 gate "$work/fat" "$work/base" "${small[@]}" --pairs 6,8 -o "$work/thinner
 want 1 gate "$work/fatter/base" "$work/fatter/new"
 grep '^worse .*K+B-Heap.*bytes_allocated' "$work/said" >/dev/null || fail "results: the case is not named: $(cat "$work/said")"
 want 0 gate "$work/fatter/new" "$work/fatter/base"
+# The same as a table and as JSON.
+want 1 gate "$work/fatter/base" "$work/fatter/new" --csv "$work/results.csv" --json
+says '"verdict": "worse"'
+says '"what": "bytes_allocated"'
+! grep -q '"ratio"' "$work/said" || fail "times are in the JSON of a gate that does not judge them"
+head -1 "$work/results.csv" | grep -q '^method,.*,status_new,verdict,.*,exact,other_code$' || fail "not its columns: $(head -1 "$work/results.csv")"
+grep -q '^kplus-heap,.*,worse,.*bytes_allocated [0-9]* -> [0-9]*' "$work/results.csv" || fail "the case is not in it: $(cat "$work/results.csv")"
+want 0 gate "$work/fatter/new" "$work/fatter/base" --csv "$work/results.csv"
+grep -q '^kplus-heap,.*,differs,' "$work/results.csv" || fail "what is better is not told: $(cat "$work/results.csv")"
+want 5 gate "$work/fatter/new" "$work/fatter/base" --csv "$work/none/results.csv"
+want 2 gate "$work/fatter/base" "$work/fatter/new" --pairs 20
+says 'of which nothing is measured'
 # A plugin that is refused now.
 want 1 gate "$work/base" "$work/broken" "${small[@]}" --pairs 6 -o "$work/refused"
 grep '^worse .*kplus-heap .*plugin_error' "$work/said" >/dev/null || fail "a refused plugin is not worse: $(cat "$work/said")"
 says '2 cases: 1 worse'
 want 2 gate "$work/base" "$work/broken" --method kplus-heap "${small[@]}" --pairs 6 -o "$work/refused"
 says 'is refused'
+
+# A build that has its own program is measured by it: workers of this one say that they need more memory.
+mkdir -p "$work/own/methods"
+cp -rL "$methods/kplus-heap" "$methods/kplus-array" "$methods/common" "$work/own/methods/"
+cat >"$work/own/fragmark" <<END
+#!/bin/sh
+[ "\$1" = worker ] || exec "$program" "\$@"
+"$program" "\$@" || exit
+sed -i 's/"bytes_allocated": /&9/' "\$3"
+END
+chmod +x "$work/own/fragmark"
+want 1 ab kplus-heap@"$work/build" kplus-heap@"$work/own" "${small[@]}" --pairs 6 -o "$work/by-own"
+grep '^worse .*bytes_allocated \([0-9]*\) -> 9\1' "$work/said" >/dev/null || fail "the other program is not seen: $(cat "$work/said")"
+grep -qF "\"program\": \"$work/own/fragmark\"" "$work/by-own/new/manifest.json" || fail "new/manifest.json does not name its program"
+grep -qF "\"program\": \"$(realpath "$program")\"" "$work/by-own/base/manifest.json" || fail "base/manifest.json does not name this program"
+want 1 gate "$work/build" "$work/own" "${small[@]}" --pairs 6 -o "$work/gate-own"
+want 0 ab kplus-heap@"$work/build" kplus-heap@"$work/own" "${small[@]}" --pairs 6 --program this -o "$work/by-this"
+says '1 case: 0 worse'
+want 2 ab kplus-heap@"$work/build" kplus-heap@"$work/own" "${small[@]}" --program that -o "$work/none"
+# One of another version measures nothing.
+version=$("$program" --version | sed 's/.* //')
+other=$(echo "$version" | tr 0-8 1-9)
+mkdir -p "$work/foreign"
+cp -rL "$work/own/methods" "$work/foreign/"
+LC_ALL=C sed "s/${version//./\\.}/$other/g" "$program" >"$work/foreign/fragmark"
+chmod +x "$work/foreign/fragmark"
+want 7 gate "$work/build" "$work/foreign" "${small[@]}" -o "$work/not-measured"
+says "it is fragmark $other, and not $version"
+says "$work/foreign/fragmark cannot measure for"
+[ ! -e "$work/not-measured" ] || fail "something was measured by another version"
+want 0 gate "$work/build" "$work/foreign" "${small[@]}" --pairs 6 --program this -o "$work/is-measured"
+# Nor does one whose shaders are not there.
+rm -r "$work/foreign/methods/common"
+cp "$work/own/fragmark" "$work/foreign/"
+want 2 gate "$work/build" "$work/foreign" "${small[@]}" -o "$work/none"
+says 'has no common/prelude.glsl'
 
 # Killed, then again: what ended stays.
 "$program" ab kplus-heap@"$work/base" kplus-heap@"$work/build" "${small[@]}" --pairs 80 -o "$work/killed" >/dev/null 2>&1 &
@@ -111,11 +159,87 @@ done
 want 0 calibrate -q --pairs 20 --device dummy -a n=4 -a k=2 -a width_px=16 -a height_px=12 -a frames=2 -o "$work/state/here.json"
 says 'changes count from'
 want 0 ab kplus-heap@"$work/base" kplus-heap@"$work/build" "${small[@]}" --calibration "$work/state/here.json" --pairs 6 -o "$work/calibrated"
-sed 's/"fingerprint": "[0-9a-f]*"/"fingerprint": "0123456789abcdef"/' "$work/state/here.json" >"$work/state/there.json"
+sed 's/"cores": [0-9]*/"cores": 12345/' "$work/state/here.json" >"$work/state/there.json"
 want 2 ab kplus-heap@"$work/base" kplus-heap@"$work/build" "${small[@]}" --calibration "$work/state/there.json" -o "$work/none"
 says 'another machine'
+want 2 calibrate -q --pairs 20 --device dummy -a n=4 -a k=2 -a width_px=16 -a height_px=12 -a frames=2 -o "$work/state/there.json" --results "$work/refused-file"
+says 'another machine'
+[ ! -e "$work/refused-file" ] || fail "it measured for a file that it cannot add to"
 XDG_STATE_HOME=$work/state want 0 calibrate -q --pairs 20 --device dummy -a n=4 -a k=2 -a width_px=16 -a height_px=12 -a frames=2
 [ "$(find "$work/state/fragmark/calibration" -name '*.json' | wc -l)" = 1 ] || fail "the calibration is not in XDG_STATE_HOME"
+# A kernel that counted a little more memory, as after another boot: it is the same machine, and its file.
+kept=$(echo "$work"/state/fragmark/calibration/*.json)
+bytes=$(grep -o '"memory_bytes": [0-9]*' "$kept" | grep -o '[0-9]*$')
+sed -i "s/\"memory_bytes\": [0-9]*/\"memory_bytes\": $((bytes / 100 * 101))/" "$kept"
+mv "$kept" "$work/state/fragmark/calibration/0123456789abcdef.json"
+XDG_STATE_HOME=$work/state want 0 calibrate -q --pairs 20 --device dummy -a n=4,6 -a k=2 -a width_px=16 -a height_px=12 -a frames=2
+says 'of these the noisiest case is kept: kplus-heap'
+says 'calibration/0123456789abcdef.json'
+[ "$(find "$work/state/fragmark/calibration" -name '*.json' | wc -l)" = 1 ] || fail "the machine has two calibrations"
+grep -q "\"memory_bytes\": $bytes" "$work/state/fragmark/calibration/0123456789abcdef.json" || fail "the file is not this machine's"
+echo '{' >"$work/state/fragmark/calibration/damaged.json"
+XDG_STATE_HOME=$work/state want 2 ab kplus-heap@"$work/base" kplus-heap@"$work/build" -q --device dummy -a n=4 -o "$work/none"
+says 'damaged.json:'
+
+# A case that crashes on both sides while it runs: the others are judged, and it is named.
+mkdir -p "$work/faulty/picky"
+cat >"$work/picky.c" <<'EOF'
+#include <signal.h>
+
+#include "head.h"
+
+static fm_next after(const fm_workload *workload, const char *pass)
+{
+    (void)pass;
+    if (workload->width_px == 20)
+        raise(SIGSEGV);
+    return FM_NEXT;
+}
+
+const fm_method_desc fm_method = {
+    HEAD("picky"),
+    .resources = { NEAREST },
+    .passes = { { .name = "clear", .kind = FM_PASS_CLEAR, .writes = { "nearest" }, .clear_word = 0x7F800000u },
+                STORE, { .name = "ask", .kind = FM_PASS_HOST }, RESOLVE },
+    .keeps = FM_KEEPS_NEAREST,
+    .after = after,
+};
+EOF
+"$compiler" -shared -fPIC -fvisibility=hidden -I"$source/runner/include" -I"$source/tests/plugins" \
+    -o "$work/faulty/picky/picky.so" "$work/picky.c"
+cp "$source"/tests/plugins/{store,resolve}.glsl "$work/faulty/picky/"
+picky=(-q --device dummy -a n=4 -a height_px=12 -a frames=2)
+want 4 ab picky@"$work/faulty" picky@"$work/faulty" "${picky[@]}" --calibration none --band 100% --no-images \
+    -a width_px=16,20 --pairs 6 -o "$work/both-fail" --json
+says '"unmeasured": 1'
+says '"same": 1'
+says '"status_base": "crash"'
+says '"status_new": "crash"'
+says 'SIGSEGV'
+# calibrate leaves it out, and keeps the other one; if nothing is left, nothing is kept.
+want 4 calibrate --method picky --plugin-dir "$work/faulty" "${picky[@]}" -a width_px=16,20 --pairs 20 -o "$work/state/picky.json"
+says 'left out, for it was not measured: picky'
+says 'SIGSEGV'
+grep -q '"case": "picky.*width_px=16' "$work/state/picky.json" || fail "what was measured is not kept: $(cat "$work/state/picky.json")"
+want 4 calibrate --method picky --plugin-dir "$work/faulty" "${picky[@]}" -a width_px=20 --pairs 20 -o "$work/state/nothing.json"
+says 'nothing could be measured'
+[ ! -e "$work/state/nothing.json" ] || fail "a calibration of nothing was kept"
+
+# Results that cannot be continued end calibrate as they end ab.
+again() { # CODE: both, with what lies in picky-results
+    want "$1" calibrate --method picky --plugin-dir "$work/faulty" "${picky[@]}" -a width_px=16 --pairs 20 \
+        -o "$work/state/picky.json" --results "$work/picky-results"
+    want "$1" ab picky@"$work/faulty" picky@"$work/faulty" "${picky[@]}" --no-images -a width_px=16 --pairs 20 \
+        -o "$work/picky-results"
+}
+want 0 calibrate --method picky --plugin-dir "$work/faulty" "${picky[@]}" -a width_px=16 --pairs 20 \
+    -o "$work/state/picky.json" --results "$work/picky-results"
+head -3 "$work/picky-results/base/journal.jsonl" >"$work/short" # one launch, which ended
+cp "$work/short" "$work/picky-results/base/journal.jsonl"
+echo '// other code' >>"$work/faulty/picky/resolve.glsl"
+again 7
+sed -i '2s/.*/no JSON/' "$work/picky-results/base/journal.jsonl"
+again 8
 
 # What cannot be.
 want 2 ab kplus-heap@"$work/base" "${small[@]}"

@@ -8,6 +8,7 @@ temporary=$(mktemp -d)
 trap 'rm -rf "$temporary"' EXIT
 failed=0
 export XDG_CACHE_HOME=$temporary/cache
+unset FRAGMARK_CACHE
 . "$(dirname "$0")/nothing_left.sh"
 
 fail() {

@@ -9,6 +9,7 @@ temporary=$(mktemp -d)
 trap 'rm -rf "$temporary"' EXIT
 failed=0
 export XDG_CACHE_HOME=$temporary/cache
+unset FRAGMARK_CACHE
 fail() {
     echo "FAILED: $*" >&2
     failed=1

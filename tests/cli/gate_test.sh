@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # gate_test.sh PROGRAM: `gate` on a software rasteriser. A copy of kplus-heap outside of the tree whose shader was made
-# slower is found, confirmed and named, with exit code 1; copies that are equal end with 0. Processor time decides,
-# since other programs hardly change it. GATES=N runs N gates of equal copies (1), and tells what they said.
+# slower is found, confirmed and named, with exit code 1, and so is a copied build whose common GLSL is slower; copies that
+# are equal end with 0. Processor time decides, since other programs hardly change it. GATES=N runs N gates of equal copies (1), and tells what they said.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/slower_copy.sh"
 program=$1
@@ -22,6 +22,19 @@ code=0
 [ $code = 1 ] || fail "slower: exit code $code: $(cat "$work/said")"
 grep '^worse .*kplus-heap .*confirmed on 10 fresh pairs' "$work/said" >/dev/null || fail "the case is not named: $(cat "$work/said")"
 grep -q ',confirmation,' "$work/slower/pairs.csv" || fail "nothing was measured to confirm it"
+
+# A copied build whose common GLSL is slower, by its own program.
+mkdir "$work/build"
+cp "$program" "$work/build/"
+cp -rL "$methods" "$work/build/methods"
+sed -i '/^uint array_slot/,/^{/ s/^{/{\n    uint x = i;\n    FM_LOOP for (uint j = 0u; j < 60u; j++)\n        x = x * 1664525u + 1013904223u;\n    if (x == 0xFFFFFFFFu \&\& pixel.y == 0x7FFFFFFFu)\n        return 0u;/' \
+    "$work/build/methods/common/array.glsl"
+! cmp -s "$work/build/methods/common/array.glsl" "$methods/common/array.glsl" || fail "array.glsl is not as it was: the copy is no slower"
+code=0
+"$program" ab kplus-heap@"$(dirname "$program")" kplus-heap@"$work/build" "${small[@]}" --pairs 10,20 -o "$work/builds" >"$work/said" 2>&1 || code=$?
+[ $code = 1 ] || fail "a slower build: exit code $code: $(cat "$work/said")"
+grep '^worse .*kplus-heap .*confirmed on 10 fresh pairs' "$work/said" >/dev/null || fail "a slower build: $(cat "$work/said")"
+grep -qF "\"program\": \"$work/build/fragmark\"" "$work/builds/new/manifest.json" || fail "the copy's program did not measure it"
 
 wrong=0
 for i in $(seq "$gates"); do

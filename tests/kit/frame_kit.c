@@ -48,6 +48,15 @@ static fm_status start_at_zero(fm_device *device, fm_instance *instance, fm_erro
                                      sizeof zero, err);
 }
 
+static void look_at_counts(frames_seen *seen, const fm_instance *instance,
+                           const fm_method_desc *method)
+{
+    const char *name;
+    assert_string_equal(instance_uncounted(instance), "");
+    for (size_t i = 0; i < resource_count(method); i++)
+        seen->has_counts = instance_accesses(&seen->accesses[i], &name, instance, i);
+}
+
 static fm_status run(frames_seen *seen, const kit_scene *scene, const kit_frames *frames,
                      const fm_shader_folders *folders, fm_error *err)
 {
@@ -57,6 +66,7 @@ static fm_status run(frames_seen *seen, const kit_scene *scene, const kit_frames
     fm_instance *instance = NULL;
     fm_frame_result result = { 0 };
     settings.buffers = frames->buffers;
+    desc.counts_accesses = frames->counts;
     desc.settings = &settings;
     fm_status status =
         stage_create(&desc.stage, device, scene->scene, scene->truth, FM_FEED_RASTER, err);
@@ -67,6 +77,8 @@ static fm_status run(frames_seen *seen, const kit_scene *scene, const kit_frames
     for (int i = 0; i < (frames->frames > 0 ? frames->frames : 1) && status == FM_OK; i++)
         status = instance_frame(&result, instance, NULL, err);
     seen->redos = result.redos;
+    if (status == FM_OK)
+        look_at_counts(seen, instance, frames->method);
     if (status == FM_OK)
         status = look(seen, device, instance, frames->method, err);
     instance_destroy(instance);

@@ -19,7 +19,8 @@ typedef struct kit_frames {
     size_t file_count;
     const char *scene; /* texts as of kit_scene_open; NULL: 3 x 2 pixels without a fragment */
     fm_buffers buffers;
-    int frames; /* 0 is 1 */
+    int frames;  /* 0 is 1 */
+    bool counts; /* accesses */
 } kit_frames;
 
 /* What the last frame left. */
@@ -28,6 +29,9 @@ typedef struct frames_seen {
     uint32_t redos;
     uint64_t length; /* elements of the last resource, which is a buffer of words */
     uint32_t last;   /* its last element */
+    fm_accesses
+        accesses[FM_MAX_RESOURCES]; /* of each resource; with `counts`, where it has_counts */
+    bool has_counts;
 } frames_seen;
 
 /* Runs the frames; fails as instance_create and instance_frame do. */

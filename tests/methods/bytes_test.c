@@ -142,18 +142,13 @@ static uint64_t chosen_kplus(const workload *w)
     return (8 * chosen + 4 + 4) * w->pixels + 4 * (1024 + 2);
 }
 
-/* Counter and address; one, 30 or 32 shared counters and as many prefix sums. */
+/* Counter and address; one or 32 shared counters and as many prefix sums. */
 static uint64_t l_buffer(const workload *w)
 {
     return 8 * w->fragments + 8 * w->pixels + 8;
 }
 
 static uint64_t s_buffer(const workload *w)
-{
-    return 8 * w->fragments + 8 * w->pixels + 8 * 30;
-}
-
-static uint64_t k_of_s_buffer(const workload *w)
 {
     return 8 * w->fragments + 8 * w->pixels + 8 * 32;
 }
@@ -187,6 +182,8 @@ static const struct formula {
     { "kb-multi", flagged_k_buffer },
     { "kb-ll", sorted_list },
     { "kb-mdt32", k_buffer },
+    { "loop32", k_buffer },
+    { "loop64", k_buffer },
     { "kb-ps", locked_k_buffer },
     { "ab-array", a_buffer },
     { "z-buffer", z_buffer },
@@ -206,7 +203,7 @@ static const struct formula {
     { "freepipe-compute", freepipe },
     { "kb-ab-array", a_buffer },
     { "kb-ab-ll", linked_list },
-    { "kb-ab-sb", k_of_s_buffer },
+    { "kb-ab-sb", s_buffer },
     { "kplus-sb", kplus_in_s_buffer },
 };
 

@@ -119,6 +119,10 @@ static void expect_exact(const fm_measurement *m, const char *where, const char 
         fail_msg("%s: %s: missing %u, extra %u, misordered %u, lost %u in %u pixels", where, scene,
                  (unsigned)check->missing, (unsigned)check->extra, (unsigned)check->misordered,
                  (unsigned)m->lost, (unsigned)check->wrong_pixels);
+    const fm_accesses accesses = measure_accesses(m);
+    if (accesses.outside > 0 || m->uncounted[0] != '\0')
+        fail_msg("%s: %s: %u accesses out of range%s", where, scene, (unsigned)accesses.outside,
+                 m->uncounted);
     if (!(m->self_max_abs <= image_tolerance))
         fail_msg("%s: %s: the image is %.3g from its fragments", where, scene, m->self_max_abs);
     if (!(m->error.region[FM_REGION_VIEWPORT].difference.max_abs <= image_tolerance))

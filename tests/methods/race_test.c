@@ -19,14 +19,19 @@ static fm_device *lavapipe_of(void **state)
     return device;
 }
 
-static uint64_t wrong_pixels(kit_scene *scene, const char *method, uint32_t feed)
+static uint64_t wrong_pixels_of(kit_scene *scene, const kit_way *way)
 {
     fm_measurement m;
-    assert_true(kit_measure(&m, scene, &(kit_way){ method, feed, "k=8" }));
+    assert_true(kit_measure(&m, scene, way));
     const uint64_t wrong = m.check.wrong_pixels;
     assert_int_equal(m.lost, 0);
     measurement_free(&m);
     return wrong;
+}
+
+static uint64_t wrong_pixels(kit_scene *scene, const char *method, uint32_t feed)
+{
+    return wrong_pixels_of(scene, &(kit_way){ method, feed, "k=8" });
 }
 
 static void k_buffers_err_in_most_pixels_when_neighbours_contend(void **state)
@@ -49,8 +54,9 @@ static void k_buffers_err_in_most_pixels_when_neighbours_contend(void **state)
 
 static void synchronised_methods_are_exact_when_neighbours_contend(void **state)
 {
-    static const char *const methods[] = { "kplus-array", "kplus-heap", "kb-ps",   "kb-mdt64",
-                                           "kb-mdt32",    "kb-ll",      "kb-multi" };
+    static const char *const methods[] = { "kplus-array", "kplus-heap", "kb-ps",
+                                           "kb-mdt64",    "kb-mdt32",   "kb-ll",
+                                           "kb-multi",    "loop32",     "loop64" };
     scene_kit kit;
     kit_scene scene;
     kit_open(&kit, lavapipe_of(state));
@@ -58,6 +64,25 @@ static void synchronised_methods_are_exact_when_neighbours_contend(void **state)
     for (int run = 0; run < RUNS; run++)
         for (size_t i = 0; i < sizeof methods / sizeof methods[0]; i++)
             assert_int_equal(wrong_pixels(&scene, methods[i], FM_FEED_COMPUTE_ADJACENT), 0);
+    kit_scene_close(&scene);
+    kit_close(&kit);
+}
+
+/* Other chains are under way while one looks for its slot. */
+static void chains_may_begin_anywhere_when_neighbours_contend(void **state)
+{
+    static const char *const methods[] = { "kb-mdt32", "kb-mdt64" };
+    static const char *const starts[] = { "k=17 start=front", "k=17 start=half",
+                                          "k=17 start=binary" };
+    enum { STARTS = sizeof starts / sizeof starts[0] };
+    scene_kit kit;
+    kit_scene scene;
+    kit_open(&kit, lavapipe_of(state));
+    kit_scene_open(&scene, &kit, SCENE);
+    for (size_t i = 0; i < 2 * STARTS; i++) {
+        const kit_way way = { methods[i / STARTS], FM_FEED_COMPUTE_ADJACENT, starts[i % STARTS] };
+        assert_int_equal(wrong_pixels_of(&scene, &way), 0);
+    }
     kit_scene_close(&scene);
     kit_close(&kit);
 }
@@ -82,6 +107,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(k_buffers_err_in_most_pixels_when_neighbours_contend,
                                         open_vulkan, close_opened),
         cmocka_unit_test_setup_teardown(synchronised_methods_are_exact_when_neighbours_contend,
+                                        open_vulkan, close_opened),
+        cmocka_unit_test_setup_teardown(chains_may_begin_anywhere_when_neighbours_contend,
                                         open_vulkan, close_opened),
         cmocka_unit_test_setup_teardown(no_method_errs_on_raster, open_vulkan, close_opened),
     };

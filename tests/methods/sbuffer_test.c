@@ -96,7 +96,9 @@ static void check_example(fm_device *device, const example *as)
     fm_instance *instance = NULL;
     fm_frame_result result;
     fm_error err = { .message = "" };
-    fm_choice choices[] = { { .name = "counters", .value = "3" }, { .name = "mapping" } };
+    fm_choice choices[] = { { .name = "counters", .value = "3" },
+                            { .name = "mapping" },
+                            { .name = "hash", .value = "paper" } };
     snprintf(choices[1].value, sizeof choices[1].value, "%s", as->mapping);
     kit_open(&kit, device);
     kit_scene_take(&scene, &kit, make_scene());

@@ -1,6 +1,7 @@
 /* Named runs: what is copied, which machine's is found, what is noticed. */
 #include "compare_kit.h"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "baseline/baseline.h"
@@ -91,6 +92,37 @@ static void setting_again_replaces_that_of_the_same_machine(void **state)
     end(&store);
 }
 
+static void append(const char *folder, const char *name, const char *bytes)
+{
+    char path[FM_PATH_MAX_BYTES + 32];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *file = fopen(path, "a");
+    assert_non_null(file);
+    assert_true(fputs(bytes, file) >= 0);
+    fclose(file);
+}
+
+/* Folders of a process that had the same number, with a file that the new run has not. */
+static void what_a_killed_process_left_is_no_part_of_it(void **state)
+{
+    static const char *const ends[] = { "", "-0", "-1" };
+    char run_id[32], folder[96], path[192];
+    kit_store store;
+    (void)state;
+    begin(&store);
+    snprintf(folder, sizeof folder, "%s/a", store.path);
+    assert_int_equal(mkdir(folder, 0777), 0);
+    for (size_t i = 0; i < 3; i++) {
+        snprintf(path, sizeof path, "%s/.partial-%ld%s", folder, (long)getpid(), ends[i]);
+        assert_int_equal(mkdir(path, 0777), 0);
+        append(path, "journal.jsonl", "{}\n");
+    }
+    set(&store, "a", NULL, "new");
+    assert_int_equal(find(run_id, &store, "a", NULL), FM_OK); /* checked: without a journal */
+    assert_string_equal(run_id, "new");
+    end(&store);
+}
+
 static void what_is_not_there_is_told(void **state)
 {
     char run_id[32], wanted[64];
@@ -110,16 +142,6 @@ static void what_is_not_there_is_told(void **state)
     baselines_free(&list);
     assert_int_equal(find(run_id, &store, wanted, NULL), FM_OK); /* asked for by its machine */
     end(&store);
-}
-
-static void append(const char *folder, const char *name, const char *bytes)
-{
-    char path[FM_PATH_MAX_BYTES + 32];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    FILE *file = fopen(path, "a");
-    assert_non_null(file);
-    assert_true(fputs(bytes, file) >= 0);
-    fclose(file);
 }
 
 static void changed_files_are_noticed(void **state)
@@ -191,6 +213,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_baseline_is_that_of_the_machine),
         cmocka_unit_test(setting_again_replaces_that_of_the_same_machine),
+        cmocka_unit_test(what_a_killed_process_left_is_no_part_of_it),
         cmocka_unit_test(what_is_not_there_is_told),
         cmocka_unit_test(changed_files_are_noticed),
         cmocka_unit_test(a_damaged_description_is_refused),

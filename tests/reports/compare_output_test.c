@@ -52,6 +52,44 @@ static void csv_has_a_row_for_each_case_of_either_run(void **state)
     kit_end(&kit);
 }
 
+/* Of the case that is twice as slow nothing but its time changed. */
+static void what_is_exact_has_verdicts_of_its_own(void **state)
+{
+    kit_comparison kit;
+    fm_text csv = { 0 }, json = { 0 };
+    fm_table *table = NULL;
+    char path[128];
+    (void)state;
+    make_mixed(&kit);
+    comparison_add_exact_csv(&csv, &kit.made);
+    snprintf(path, sizeof path, "%s/gate.csv", kit.now.directory);
+    assert_int_equal(text_write_file(path, csv.bytes, csv.length, NULL), FM_OK);
+    assert_int_equal(table_read(&table, path, NULL), FM_OK);
+    assert_int_equal(table->row_count, 4);
+    assert_true(table_column(table, "ratio") == FM_TABLE_NO_COLUMN);
+    assert_string_equal(cell(table, 0, "verdict"), "worse");
+    assert_string_equal(cell(table, 0, "exact"), "status ok -> crash");
+    assert_string_equal(cell(table, 1, "verdict"), "equal");
+    assert_string_equal(cell(table, 2, "verdict"), "only in BASE");
+    assert_string_equal(cell(table, 3, "verdict"), "only in NEW");
+    assert_string_equal(cell(table, 3, "bytes_allocated_new"), "4096");
+    assert_int_equal(comparison_add_exact_json(&json, &kit.made, NULL), FM_OK);
+    json_t *object = json_loadb(json.bytes, json.length, 0, NULL);
+    const json_t *counts = json_object_get(object, "counts");
+    assert_int_equal(json_integer_value(json_object_get(counts, "worse")), 1);
+    assert_int_equal(json_integer_value(json_object_get(counts, "differs")), 0);
+    assert_int_equal(json_integer_value(json_object_get(counts, "equal")), 1);
+    const json_t *slow = json_array_get(json_object_get(object, "cases"), 1);
+    assert_string_equal(json_string_value(json_object_get(slow, "verdict")), "equal");
+    assert_null(json_object_get(slow, "ratio"));
+    assert_int_equal(json_array_size(json_object_get(object, "only_in_base")), 1);
+    json_decref(object);
+    table_close(table);
+    text_free(&json);
+    text_free(&csv);
+    kit_end(&kit);
+}
+
 static void json_tells_the_same(void **state)
 {
     kit_comparison kit;
@@ -151,6 +189,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(csv_has_a_row_for_each_case_of_either_run),
+        cmocka_unit_test(what_is_exact_has_verdicts_of_its_own),
         cmocka_unit_test(json_tells_the_same),
         cmocka_unit_test(lines_name_the_cases_and_sum_up),
         cmocka_unit_test(page_holds_chart_and_names_but_no_foreign_tags),

@@ -181,6 +181,61 @@ static void steps_are_found_and_the_newest_comes_first(void **state)
     end(&kit);
 }
 
+/* One that began in the same second is neither before nor after it. */
+static void a_series_ends_with_the_run_that_is_asked_for(void **state)
+{
+    char texts[3][256];
+    kit_history kit;
+    fm_series_list list;
+    (void)state;
+    begin(&kit);
+    for (unsigned i = 0; i < 4; i++)
+        record_night(&kit, i, 30 + i);
+    kit_run_desc twin = night_desc(texts, 2, 99);
+    twin.run_id = "twin";
+    record(&kit, &twin);
+    record_night(&kit, 2, 32); /* again: its row is the newest now */
+    load(&list, &kit, &(fm_series_desc){ .wanted = "a", .until = "0000000000000003" });
+    assert_int_equal(list.items[0].count, 3);
+    assert_string_equal(list.items[0].nights[2].run_id, "0000000000000003");
+    assert_string_equal(list.items[0].nights[1].run_id, "0000000000000002");
+    history_series_free(&list);
+    load(&list, &kit, &(fm_series_desc){ .wanted = "a", .until = "twin", .most = 2 });
+    assert_int_equal(list.items[0].count, 2);
+    assert_string_equal(list.items[0].nights[1].run_id, "twin");
+    history_series_free(&list);
+    end(&kit);
+}
+
+/* Those of other machines, or of other cases alone, say nothing of it. */
+static void newer_runs_are_those_of_its_machine_and_cases(void **state)
+{
+    static const char machine[] = "\"cpu\": \"EPYC\", \"cores\": 2, \"memory_bytes\": 2000000";
+    static const char *const others[] = { "method=c;k=4;case_id=z" };
+    char texts[3][256];
+    kit_history kit;
+    fm_history *history;
+    fm_newer_runs newer;
+    (void)state;
+    begin(&kit);
+    for (unsigned i = 0; i < 3; i++)
+        record_night(&kit, i, 30);
+    kit_run_desc elsewhere = night_desc(texts, 3, 30);
+    elsewhere.machine = machine;
+    record(&kit, &elsewhere);
+    record(&kit, &(kit_run_desc){ ROWS(others), .samples = "", .run_id = "other",
+                                  .started = "2026-03-09T01:00:00Z" });
+    assert_int_equal(history_open(&history, kit.path, FM_HISTORY_READ, &kit.err), FM_OK);
+    assert_int_equal(history_newer_runs(&newer, history, "0000000000000001", &kit.err), FM_OK);
+    assert_int_equal(newer.count, 2);
+    assert_string_equal(newer.last, "2026-03-03T01:00:00Z");
+    assert_int_equal(history_newer_runs(&newer, history, "0000000000000003", &kit.err), FM_OK);
+    assert_int_equal(newer.count, 0);
+    assert_string_equal(newer.last, "");
+    history_close(history);
+    end(&kit);
+}
+
 /* Three nights after the step it rings: both series share the level. */
 static void the_alarm_is_of_the_last_nights(void **state)
 {
@@ -218,6 +273,7 @@ static void unknown_names_are_answered_with_the_nearest(void **state)
     expect_unknown(&kit, &(fm_series_desc){ .wanted = "kplus-aray" }, "'kplus-array'");
     expect_unknown(&kit, &(fm_series_desc){ .reference = "kplus-aray" }, "'kplus-array'");
     expect_unknown(&kit, &(fm_series_desc){ .machine = "00000000" }, "machine '00000000'");
+    expect_unknown(&kit, &(fm_series_desc){ .until = "y" }, "run 'y'");
     end(&kit);
 }
 
@@ -405,6 +461,8 @@ int main(void)
         cmocka_unit_test(cases_are_found_again_and_machines_kept_apart),
         cmocka_unit_test(a_reference_method_is_taken_of_the_same_round),
         cmocka_unit_test(steps_are_found_and_the_newest_comes_first),
+        cmocka_unit_test(a_series_ends_with_the_run_that_is_asked_for),
+        cmocka_unit_test(newer_runs_are_those_of_its_machine_and_cases),
         cmocka_unit_test(the_alarm_is_of_the_last_nights),
         cmocka_unit_test(unknown_names_are_answered_with_the_nearest),
         cmocka_unit_test(a_run_without_a_place_is_refused),

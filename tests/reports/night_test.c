@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "history/record.h"
+#include "night/gate.h"
 #include "night/night.h"
 
 /* Nights in a history of their own; the last one stays open, and is judged. */
@@ -140,10 +141,55 @@ static void a_failure_without_a_past_is_told(void **state)
     end(&kit);
 }
 
+/* The history may have nights after it: of another policy, or from when it was judged first. */
+static void a_night_that_is_not_the_last_is_judged_by_those_before_it(void **state)
+{
+    fm_text markdown = { 0 };
+    kit_night kit;
+    (void)state;
+    begin(&kit);
+    add_night(&kit, 0, "k=4", 30);
+    add_night(&kit, 2, "k=4;bytes_allocated=5000", 30);
+    add_night(&kit, 3, "k=4;bytes_allocated=5000", 30);
+    add_night(&kit, 1, "k=4;bytes_allocated=4100", 30);
+    judge(&kit);
+    assert_int_equal(kit.night.alarms, 1);
+    assert_non_null(strstr(kit.night.findings[0].text, "4096 -> 4100 since 2026-03-01"));
+    assert_int_equal(kit.night.newer.count, 2);
+    night_add_markdown(&markdown, &kit.night);
+    assert_non_null(strstr(markdown.bytes, "2 later runs of these cases, the last of 2026-03-04T"));
+    text_free(&markdown);
+    night_free(&kit.night);
+    add_night(&kit, 3, "k=4;bytes_allocated=5000", 30);
+    judge(&kit);
+    assert_int_equal(kit.night.alarms, 0);
+    assert_int_equal(kit.night.newer.count, 0);
+    end(&kit);
+}
+
 static void add_step(kit_night *kit)
 {
     for (unsigned i = 0; i < 26; i++)
         add_night(kit, i, "k=4", (i < 23 ? 30 : 33) + 0.01 * (i * 7 % 5));
+}
+
+/* What was worse that night stays so, whatever came after it. */
+static void a_step_is_found_again_after_later_nights(void **state)
+{
+    kit_night kit;
+    (void)state;
+    begin(&kit);
+    add_step(&kit);
+    for (unsigned i = 26; i < 30; i++)
+        add_night(&kit, i, "k=4", 30);
+    judge(&kit);
+    assert_int_equal(kit.night.alarms, 0);
+    night_free(&kit.night);
+    add_night(&kit, 25, "k=4", 33.01);
+    judge(&kit);
+    assert_int_equal(kit.night.alarms, 1);
+    assert_int_equal(kit.night.findings[0].kind, FM_FINDING_SLOWER);
+    end(&kit);
 }
 
 static bool dismiss(fm_finding *finding, const fm_result_files *now, void *context)
@@ -172,6 +218,81 @@ static void an_alarm_on_time_may_be_dismissed_by_who_measures_again(void **state
     assert_int_equal(kit.night.count, 1);
     assert_int_equal(kit.night.alarms, 0);
     end(&kit);
+}
+
+/* What is said of a step once a gate has this row of its case; row NULL: none. */
+static void judge_step_with_gate(kit_night *kit, const char *row)
+{
+    char path[96], csv[512];
+    fm_gate_answers answers;
+    snprintf(path, sizeof path, "%s/ab.csv", kit->directory);
+    snprintf(csv, sizeof csv, "schema,case_id_new,verdict,time_shift,cpu_shift,why\n%s\n",
+             row != NULL ? row : "1,c9,same,1,,");
+    assert_int_equal(text_write_file(path, csv, strlen(csv), NULL), FM_OK);
+    assert_int_equal(gate_answers_open(&answers, path, &kit->err), FM_OK);
+    kit->desc.confirm = gate_confirm;
+    kit->desc.context = &answers;
+    judge(kit);
+    gate_answers_close(&answers);
+}
+
+static void a_gate_confirms_dismisses_or_leaves_an_alarm(void **state)
+{
+    static const struct {
+        const char *row, *words, *standing;
+        size_t alarms;
+    } cases[] = {
+        { "1,c0,worse,1.5,1.25,confirmed on 20 fresh pairs",
+          "; a gate says worse, time +50.0 %, cpu +25.0 %: confirmed on 20 fresh pairs",
+          ", confirmed", 1 },
+        { "1,c0,same,1.001,,", "; a gate says same, time +0.1 %", ", not confirmed", 0 },
+        { "1,c0,unclear,1.2,,60 pairs might decide", "; a gate says unclear", ", not confirmed",
+          0 },
+        { "1,c0,unmeasured,,,base: crash", "; a gate could not measure it", "", 1 },
+        { NULL, "; a gate could not measure it", "", 1 },
+    };
+    kit_night kit;
+    (void)state;
+    begin(&kit);
+    add_step(&kit);
+    kit.desc.unconfirmed = "Nobody knows.";
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        fm_text markdown = { 0 }, json = { 0 };
+        judge_step_with_gate(&kit, cases[i].row);
+        assert_int_equal(kit.night.count, 1);
+        assert_int_equal(kit.night.alarms, cases[i].alarms);
+        assert_non_null(strstr(kit.night.findings[0].text, cases[i].words));
+        assert_string_equal(finding_standing(&kit.night.findings[0]), cases[i].standing);
+        night_add_markdown(&markdown, &kit.night);
+        assert_int_equal(night_add_json(&json, &kit.night, &kit.err), FM_OK);
+        assert_int_equal(strstr(markdown.bytes, "Nobody knows.") != NULL,
+                         cases[i].standing[0] == '\0');
+        assert_int_equal(strstr(json.bytes, "\"confirmed\": true") != NULL,
+                         strcmp(cases[i].standing, ", confirmed") == 0);
+        assert_non_null(strstr(json.bytes, "\"method\": \""));
+        text_free(&json);
+        text_free(&markdown);
+        night_free(&kit.night);
+    }
+    kit.desc.confirm = NULL;
+    judge(&kit); /* what end() frees */
+    end(&kit);
+}
+
+static void a_file_that_is_no_gates_is_refused(void **state)
+{
+    char path[] = "/tmp/fragmark-gate-XXXXXX";
+    fm_gate_answers answers;
+    fm_error err = { 0 };
+    (void)state;
+    close(mkstemp(path));
+    assert_int_equal(text_write_file(path, "schema,verdict\n1,worse\n", 23, NULL), FM_OK);
+    assert_int_equal(gate_answers_open(&answers, path, &err), FM_INVALID);
+    assert_non_null(strstr(err.message, "case_id_new"));
+    gate_answers_close(&answers);
+    unlink(path);
+    assert_int_equal(gate_answers_open(&answers, path, &err), FM_IO);
+    gate_answers_close(&answers);
 }
 
 /* Two launches of 30 and 33 are known to 4.8 %; for a step of 6 % it is to be 1.6 %. */
@@ -237,7 +358,11 @@ int main(void)
         cmocka_unit_test(nights_without_a_number_are_passed_over),
         cmocka_unit_test(races_are_held_to_their_memory_alone),
         cmocka_unit_test(a_failure_without_a_past_is_told),
+        cmocka_unit_test(a_night_that_is_not_the_last_is_judged_by_those_before_it),
+        cmocka_unit_test(a_step_is_found_again_after_later_nights),
         cmocka_unit_test(an_alarm_on_time_may_be_dismissed_by_who_measures_again),
+        cmocka_unit_test(a_gate_confirms_dismisses_or_leaves_an_alarm),
+        cmocka_unit_test(a_file_that_is_no_gates_is_refused),
         cmocka_unit_test(the_launches_that_are_needed_follow_from_the_noise),
         cmocka_unit_test(a_baseline_is_held_against_each_night),
         cmocka_unit_test(what_is_written_names_the_finding_and_escapes_it),

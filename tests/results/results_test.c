@@ -125,7 +125,9 @@ static void summary_has_the_columns_of_the_design_in_order(void **state)
         "total_rmse,total_max_abs,total_ssim,total_flip,fragments_wanted,declared_ties,"
         "declared_at_one,lost_ties,lost_at_one,self_max_abs,self_beyond,"
         "frames_drawn,frames_rmse_max,frames_max_abs,frames_total_rmse_max,captured_frames,"
-        "distinct_fragments,missing_max,reason\n");
+        "distinct_fragments,missing_max,reason,bytes_moved,atomics,bound_ms,bound_ms_low,"
+        "bound_ms_high,times_bound,times_bound_low,times_bound_high,limited_by,device_bytes_per_s,"
+        "device_atomics_per_s,device_fragments_per_s\n");
     text_free(&header);
 }
 

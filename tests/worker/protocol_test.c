@@ -34,6 +34,7 @@ static void request_comes_back_as_it_was_written(void **state)
                                  .choices = choices,
                                  .choice_count = 1,
                                  .truth = "t.truth",
+                                 .cache = "/c",
                                  .image = "",
                                  .range = "work/7",
                                  .known_images = known,
@@ -49,6 +50,7 @@ static void request_comes_back_as_it_was_written(void **state)
     assert_string_equal(read.request.plugin, "a/a.so");
     assert_string_equal(read.request.device, "vulkan:0");
     assert_int_equal(read.request.launch, 3);
+    assert_string_equal(read.request.cache, "/c");
     assert_string_equal(read.request.range, "work/7");
     assert_int_equal(read.request.known_count, 2);
     assert_memory_equal(read.request.known_images, known, sizeof known);
@@ -101,10 +103,11 @@ static void request_with_very_many_known_images_is_read(void **state)
 }
 
 #define REQUEST_KNOWING(known, job, launch, check, settings, options)                              \
-    "{\"job\": " job ", \"plugin\": \"\", \"floor\": \"\", \"common\": \"\", \"device\": \"\", "   \
+    "{\"protocol\": 1, \"job\": " job ", \"plugin\": \"\", \"floor\": \"\", \"common\": \"\", "    \
+    "\"device\": \"\", "                                                                           \
     "\"validation\": false, \"no_timers\": false, \"feed\": \"\", \"settings\": {" settings        \
-    "}, \"options\": {" options "}, \"truth\": \"\", \"launch\": " launch ", \"check\": " check    \
-    ", \"image\": \"\", \"range\": \"\", \"known_images\": [" known                                \
+    "}, \"options\": {" options "}, \"truth\": \"\", \"cache\": \"\", \"launch\": " launch         \
+    ", \"check\": " check ", \"image\": \"\", \"range\": \"\", \"known_images\": [" known          \
     "], \"keep_fragments\": \"\", \"keep_truth\": \"\", \"keep_frames\": "                         \
     "\"\"}"
 #define REQUEST(job, launch, check, settings, options)                                             \
@@ -130,8 +133,11 @@ static void request_read_refuses_what_is_no_request(void **state)
         const char *text, *words;
     } rows[] = {
         { "[", ":1: " },
-        { "[]", "'job' is missing" },
-        { "{\"job\": \"truth\"}", "'plugin' is missing" },
+        { "[]", "no request of protocol 1" },
+        { "{\"job\": \"truth\"}", "no request of protocol 1" },
+        { "{\"protocol\": 2, \"job\": \"truth\"}", "no request of protocol 1" },
+        { "{\"protocol\": 1}", "'job' is missing" },
+        { "{\"protocol\": 1, \"job\": \"truth\"}", "'plugin' is missing" },
         { REQUEST("\"sleep\"", "0", "true", "", ""), "'job' is none that is known" },
         { REQUEST("7", "0", "true", "", ""), "'job' is missing or of another kind" },
         { REQUEST("\"mesh\"", "\"0\"", "true", "", ""), "'launch' is missing or of another kind" },

@@ -124,6 +124,7 @@ void vulkan_caps_find(vulkan *self)
      * memory barriers in divergent compute code break it. */
     caps->needs_helper_guard = !is_lavapipe;
     caps->needs_lock_barriers = !is_lavapipe;
+    caps->counts_accesses = true;
     caps->loop_limit = is_lavapipe ? LAVAPIPE_LOOP_LIMIT : 0;
     if (is_lavapipe && caps->image_max_bytes > LAVAPIPE_IMAGE_BYTES)
         caps->image_max_bytes = LAVAPIPE_IMAGE_BYTES;

@@ -9,7 +9,7 @@
  *   buffer.c          buffers, and memory for them and images, of the type that fits
  *   transfer.c        their reads and writes; commands outside frames, and submitting any
  *   image.c           images and their formats
- *   shader.c          GLSL to SPIR-V
+ *   shader.c          shaders as modules, and what the driver made of their pipelines before
  *   pipeline.c        pipelines; state.c: fixed-function state from the interface's enums
  *   barrier.c         which accesses have to wait for which
  *   frame.c           begin and end, timers and queries
@@ -22,6 +22,7 @@
 #include <vulkan/vulkan.h>
 
 #include "device/device.h"
+#include "device/glsl/glsl.h"
 
 enum {
     VULKAN_TIMESTAMPS_MAX = 2 * 4096, /* two for each interval of a frame */
@@ -114,8 +115,8 @@ typedef struct vulkan {
     VkCommandBuffer transfer_commands; /* outside frames: transfer.c */
     VkFence fence;                     /* of what was submitted last; reset when it is done */
     VkSampler sampler;                 /* nearest: images are read with texelFetch */
-    struct shaderc_compiler *compiler; /* kept: starting one parses all that is built in, 20 ms */
-    fm_buffer *staging;                /* of transfers */
+    glsl_compiler compiler;
+    fm_buffer *staging; /* of transfers */
     vulkan_descriptors descriptors;
     vulkan_query_pool timestamps, occlusions;
     uint64_t timestamp_mask;     /* bits that a timestamp has; the rest is noise */
@@ -215,12 +216,25 @@ fm_status vulkan_image_create(fm_image_resource **image, fm_device *device,
                               const fm_image_desc *desc, fm_error *err);
 void vulkan_image_destroy(fm_device *device, fm_image_resource *image);
 
-/* shader.c: the compiler, for as long as the device is open. */
-fm_status vulkan_compiler_create(vulkan *self, fm_error *err);
-void vulkan_compiler_destroy(vulkan *self); /* also if none was created */
-/* One stage to SPIR-V and a module. name is the pipeline's. */
-fm_status vulkan_shader_create(VkShaderModule *module, const vulkan *self, const char *name,
-                               VkShaderStageFlagBits stage, const char *source, fm_error *err);
+/* shader.c. One stage to a module. Adds the SPIR-V to the pipeline's key.
+ * counting  NULL: the shader stays as it is */
+fm_status vulkan_shader_create(VkShaderModule *module, cache_key *key, vulkan *self,
+                               const glsl_source *source, const spirv_counting *counting,
+                               fm_error *err);
+
+/* What the driver made of shaders before, by their SPIR-V and its build. Pipelines of the same
+ * shaders that differ in state share a file, which grows by what the driver adds. */
+typedef struct vulkan_pipelines {
+    cache_key key;
+    VkPipelineCache cache; /* to make the pipeline with; VK_NULL_HANDLE without a cache */
+    void *bytes;           /* [count]: what was kept; owned */
+    size_t count;
+} vulkan_pipelines;
+/* The shaders are still to be added. */
+cache_key vulkan_pipeline_key(const vulkan *self);
+void vulkan_pipelines_recall(vulkan_pipelines *kept, const vulkan *self, const cache_key *key);
+/* Ends it, and keeps what the driver has now, if that is more. is_made: the pipeline was. */
+void vulkan_pipelines_keep(vulkan_pipelines *kept, const vulkan *self, bool is_made);
 
 /* state.c: fixed-function state. */
 VkPipelineDepthStencilStateCreateInfo vulkan_depth_stencil(const fm_pipeline_desc *desc);

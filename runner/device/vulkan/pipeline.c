@@ -119,12 +119,15 @@ static fm_status creation_failed(fm_error *err, VkResult result, const char *nam
     return vulkan_fail(err, result, "%s: pipeline", name);
 }
 
-static fm_status create_compute(fm_pipeline *pipeline, const vulkan *self,
-                                const fm_pipeline_desc *desc, fm_error *err)
+static fm_status create_compute(fm_pipeline *pipeline, vulkan *self, const fm_pipeline_desc *desc,
+                                fm_error *err)
 {
     VkShaderModule module = VK_NULL_HANDLE;
-    const fm_status status = vulkan_shader_create(&module, self, desc->name,
-                                                  VK_SHADER_STAGE_COMPUTE_BIT, desc->compute, err);
+    vulkan_pipelines kept;
+    cache_key key = vulkan_pipeline_key(self);
+    const glsl_source compute = { desc->name, GLSL_COMPUTE, desc->compute };
+    const fm_status status =
+        vulkan_shader_create(&module, &key, self, &compute, desc->counting, err);
     if (status != FM_OK)
         return status;
     const VkComputePipelineCreateInfo info = {
@@ -132,8 +135,10 @@ static fm_status create_compute(fm_pipeline *pipeline, const vulkan *self,
         .stage = stage_info(VK_SHADER_STAGE_COMPUTE_BIT, module),
         .layout = pipeline->layout,
     };
+    vulkan_pipelines_recall(&kept, self, &key);
     const VkResult result =
-        vkCreateComputePipelines(self->device, VK_NULL_HANDLE, 1, &info, NULL, &pipeline->pipeline);
+        vkCreateComputePipelines(self->device, kept.cache, 1, &info, NULL, &pipeline->pipeline);
+    vulkan_pipelines_keep(&kept, self, result == VK_SUCCESS);
     vkDestroyShaderModule(self->device, module, NULL);
     return result == VK_SUCCESS ? FM_OK : creation_failed(err, result, desc->name);
 }
@@ -202,7 +207,8 @@ static void describe_output(graphics_parts *parts, const fm_pipeline_desc *desc)
 }
 
 static VkResult build_graphics(fm_pipeline *pipeline, const vulkan *self, graphics_parts *parts,
-                               const VkPipelineShaderStageCreateInfo stages[2])
+                               const VkPipelineShaderStageCreateInfo stages[2],
+                               VkPipelineCache cache)
 {
     static const VkPipelineInputAssemblyStateCreateInfo assembly = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
@@ -239,22 +245,25 @@ static VkResult build_graphics(fm_pipeline *pipeline, const vulkan *self, graphi
         .pDynamicState = &dynamic,
         .layout = pipeline->layout,
     };
-    return vkCreateGraphicsPipelines(self->device, VK_NULL_HANDLE, 1, &info, NULL,
-                                     &pipeline->pipeline);
+    return vkCreateGraphicsPipelines(self->device, cache, 1, &info, NULL, &pipeline->pipeline);
 }
 
-static fm_status create_graphics(fm_pipeline *pipeline, const vulkan *self,
-                                 const fm_pipeline_desc *desc, fm_error *err)
+static fm_status create_graphics(fm_pipeline *pipeline, vulkan *self, const fm_pipeline_desc *desc,
+                                 fm_error *err)
 {
     VkShaderModule vertex = VK_NULL_HANDLE, fragment = VK_NULL_HANDLE;
     graphics_parts parts;
+    vulkan_pipelines kept;
+    cache_key key = vulkan_pipeline_key(self);
+    const glsl_source shaders[] = {
+        { desc->name, GLSL_VERTEX, desc->vertex },
+        { desc->name, GLSL_FRAGMENT, desc->fragment },
+    };
     fm_status status = check_targets(self, desc, err);
     if (status == FM_OK)
-        status = vulkan_shader_create(&vertex, self, desc->name, VK_SHADER_STAGE_VERTEX_BIT,
-                                      desc->vertex, err);
+        status = vulkan_shader_create(&vertex, &key, self, &shaders[0], NULL, err);
     if (status == FM_OK)
-        status = vulkan_shader_create(&fragment, self, desc->name, VK_SHADER_STAGE_FRAGMENT_BIT,
-                                      desc->fragment, err);
+        status = vulkan_shader_create(&fragment, &key, self, &shaders[1], desc->counting, err);
     if (status != FM_OK)
         goto out;
     const VkPipelineShaderStageCreateInfo stages[] = {
@@ -263,7 +272,9 @@ static fm_status create_graphics(fm_pipeline *pipeline, const vulkan *self,
     };
     describe_vertices(&parts, desc);
     describe_output(&parts, desc);
-    const VkResult result = build_graphics(pipeline, self, &parts, stages);
+    vulkan_pipelines_recall(&kept, self, &key);
+    const VkResult result = build_graphics(pipeline, self, &parts, stages, kept.cache);
+    vulkan_pipelines_keep(&kept, self, result == VK_SUCCESS);
     if (result != VK_SUCCESS)
         status = creation_failed(err, result, desc->name);
 out:
@@ -275,7 +286,7 @@ out:
 fm_status vulkan_pipeline_create(fm_pipeline **pipeline, fm_device *device,
                                  const fm_pipeline_desc *desc, fm_error *err)
 {
-    const vulkan *self = (const vulkan *)device;
+    vulkan *self = (vulkan *)device;
     *pipeline = NULL;
     fm_status status = check_bindings(self, desc, err);
     if (status != FM_OK)

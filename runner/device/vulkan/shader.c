@@ -1,100 +1,98 @@
-#include <shaderc/shaderc.h>
-#include <stdio.h>
+/* Shaders as modules, and what the driver made of their pipelines before. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "context.h"
-#include "device/shader_fault.h"
 
-#define SOURCE_NAME "glsl" /* messages begin with it: "glsl:LINE: error: ..." */
-
-typedef struct stage_traits {
-    shaderc_shader_kind kind;
-    const char *name;
-} stage_traits;
-
-static stage_traits traits_of(VkShaderStageFlagBits stage)
+/* Has the shader count its accesses. */
+static fm_status rewrite(fm_spirv *spirv, const char *name, const spirv_counting *counting,
+                         fm_error *err)
 {
-    if (stage == VK_SHADER_STAGE_COMPUTE_BIT)
-        return (stage_traits){ shaderc_glsl_compute_shader, "compute" };
-    if (stage == VK_SHADER_STAGE_VERTEX_BIT)
-        return (stage_traits){ shaderc_glsl_vertex_shader, "vertex" };
-    return (stage_traits){ shaderc_glsl_fragment_shader, "fragment" };
-}
-
-/* The line of the first error; 0: none says. */
-static unsigned find_error_line(const char *log)
-{
-    for (const char *at = log; at != NULL && *at != '\0';) {
-        unsigned line = 0;
-        int end = 0; /* stays 0 if the word is not "error": a warning */
-        if (sscanf(at, SOURCE_NAME ":%u: error%n", &line, &end) == 1 && end > 0)
-            return line;
-        at = strchr(at, '\n');
-        at = at != NULL ? at + 1 : NULL;
+    uint32_t *words = NULL;
+    size_t count = 0;
+    const fm_status status = spirv_count_accesses(&words, &count, spirv->words,
+                                                  spirv->bytes / sizeof *words, counting, err);
+    if (status != FM_OK) {
+        fm_error_prefix(err, "%s", name);
+        free(words);
+        return status;
     }
-    return 0;
+    glsl_free(spirv);
+    *spirv = (fm_spirv){ words, count * sizeof *words };
+    return FM_OK;
 }
 
-static fm_status create_module(VkShaderModule *module, const vulkan *self, const char *name,
-                               shaderc_compilation_result_t spirv, fm_error *err)
+fm_status vulkan_shader_create(VkShaderModule *module, cache_key *key, vulkan *self,
+                               const glsl_source *source, const spirv_counting *counting,
+                               fm_error *err)
 {
+    fm_spirv spirv;
+    *module = VK_NULL_HANDLE;
+    fm_status status = glsl_compile(&spirv, &self->compiler, source, err);
+    if (status == FM_OK && counting != NULL)
+        status = rewrite(&spirv, source->name, counting, err);
+    if (status != FM_OK) {
+        glsl_free(&spirv);
+        return status;
+    }
     const VkShaderModuleCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-        .codeSize = shaderc_result_get_length(spirv),
-        /* shaderc promises words: its bytes are aligned for them. */
-        .pCode = (const uint32_t *)(const void *)shaderc_result_get_bytes(spirv),
+        .codeSize = spirv.bytes,
+        .pCode = spirv.words,
     };
     const VkResult result = vkCreateShaderModule(self->device, &info, NULL, module);
+    cache_key_add(key, spirv.words, spirv.bytes);
+    glsl_free(&spirv);
     if (result == VK_SUCCESS)
         return FM_OK;
     *module = VK_NULL_HANDLE;
-    return vulkan_fail(err, result, "%s: shader module", name);
+    return vulkan_fail(err, result, "%s: shader module", source->name);
 }
 
-fm_status vulkan_compiler_create(vulkan *self, fm_error *err)
+/* A driver that keeps nothing, as lavapipe, gives this much (VkPipelineCacheHeaderVersionOne). */
+enum { HEADER_BYTES = 32 };
+
+cache_key vulkan_pipeline_key(const vulkan *self)
 {
-    self->compiler = shaderc_compiler_initialize();
-    return self->compiler != NULL
-               ? FM_OK
-               : fm_fail(err, FM_NO_MEMORY, "vulkan: the shader compiler does not start");
+    const fm_cache none = { .program = 0 }, *cache = self->compiler.cache;
+    cache_key key = cache_key_begin(cache != NULL ? cache : &none, CACHE_PIPELINES);
+    cache_key_add_text(&key, self->base.caps.driver_build);
+    cache_key_add_text(&key, self->base.caps.name);
+    return key;
 }
 
-void vulkan_compiler_destroy(vulkan *self)
+void vulkan_pipelines_recall(vulkan_pipelines *kept, const vulkan *self, const cache_key *key)
 {
-    shaderc_compiler_release(self->compiler);
+    *kept = (vulkan_pipelines){ .key = *key };
+    if (self->compiler.cache == NULL)
+        return;
+    if (!cache_read(&kept->bytes, &kept->count, self->compiler.cache, CACHE_PIPELINES, key))
+        kept->count = 0;
+    const VkPipelineCacheCreateInfo info = { .sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO,
+                                             .initialDataSize = kept->count,
+                                             .pInitialData = kept->bytes };
+    if (vkCreatePipelineCache(self->device, &info, NULL, &kept->cache) != VK_SUCCESS)
+        kept->cache = VK_NULL_HANDLE;
 }
 
-/* SPIR-V is not optimised: drivers do that themselves, and compiling takes half the time. */
-fm_status vulkan_shader_create(VkShaderModule *module, const vulkan *self, const char *name,
-                               VkShaderStageFlagBits stage, const char *source, fm_error *err)
+static bool is_new(const vulkan_pipelines *kept, const void *bytes, size_t count)
 {
-    fm_status status = FM_OK;
-    const stage_traits traits = traits_of(stage);
-    shaderc_compilation_result_t result = NULL;
-    shaderc_compile_options_t options = shaderc_compile_options_initialize();
-    *module = VK_NULL_HANDLE;
-    if (options == NULL) {
-        status = fm_fail(err, FM_NO_MEMORY, "%s: no memory to compile shaders", name);
-        goto out;
-    }
-    shaderc_compile_options_set_target_env(options, shaderc_target_env_vulkan,
-                                           shaderc_env_version_vulkan_1_3);
-    shaderc_compile_options_set_optimization_level(options, shaderc_optimization_level_zero);
-    result = shaderc_compile_into_spv(self->compiler, source, strlen(source), traits.kind,
-                                      SOURCE_NAME, "main", options);
-    if (result == NULL ||
-        shaderc_result_get_compilation_status(result) != shaderc_compilation_status_success) {
-        const char *log = result != NULL ? shaderc_result_get_error_message(result) : "";
-        status = device_fail_shader(err, &(fm_shader_fault){ .pipeline = name,
-                                                             .stage = traits.name,
-                                                             .source = source,
-                                                             .log = log,
-                                                             .line = find_error_line(log) });
-        goto out;
-    }
-    status = create_module(module, self, name, result, err);
-out:
-    shaderc_result_release(result);
-    shaderc_compile_options_release(options);
-    return status;
+    return count > HEADER_BYTES && (count != kept->count || memcmp(bytes, kept->bytes, count) != 0);
+}
+
+void vulkan_pipelines_keep(vulkan_pipelines *kept, const vulkan *self, bool is_made)
+{
+    size_t count = 0;
+    void *bytes = NULL;
+    if (is_made && kept->cache != VK_NULL_HANDLE &&
+        vkGetPipelineCacheData(self->device, kept->cache, &count, NULL) == VK_SUCCESS &&
+        count > HEADER_BYTES)
+        bytes = malloc(count);
+    if (bytes != NULL &&
+        vkGetPipelineCacheData(self->device, kept->cache, &count, bytes) == VK_SUCCESS &&
+        is_new(kept, bytes, count))
+        cache_write(self->compiler.cache, CACHE_PIPELINES, &kept->key, bytes, count);
+    vkDestroyPipelineCache(self->device, kept->cache, NULL);
+    free(bytes);
+    free(kept->bytes);
 }

@@ -119,7 +119,7 @@ static void close_device(fm_device *device)
     }
     if (self->has_hung) /* the driver still works on it, and messages would come to *self */
         return;
-    vulkan_compiler_destroy(self);
+    glsl_compiler_end(&self->compiler);
     vulkan_instance_destroy(self->instance, &self->validation);
     free(self);
 }
@@ -144,6 +144,7 @@ static fm_status open_device(fm_device **device, const fm_device_desc *desc, fm_
         return fm_fail(err, FM_NO_MEMORY, "vulkan: %zu bytes", sizeof *self);
     self->base.ops = &vulkan_device;
     self->no_timers = desc->no_timers;
+    self->compiler.cache = desc->cache;
     fm_status status =
         vulkan_instance_create(&self->instance, &self->validation, desc->validation, err);
     if (status == FM_OK)
@@ -159,8 +160,6 @@ static fm_status open_device(fm_device **device, const fm_device_desc *desc, fm_
         status = vulkan_staging_create(&self->staging, self, err);
     if (status == FM_OK)
         status = vulkan_queries_create(self, err);
-    if (status == FM_OK)
-        status = vulkan_compiler_create(self, err);
     if (status != FM_OK)
         goto out;
     *device = &self->base;

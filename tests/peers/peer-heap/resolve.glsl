@@ -1,0 +1,2 @@
+#define SLOT_OF(i) (i)
+#include "peer-array/resolve.glsl"
