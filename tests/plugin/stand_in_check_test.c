@@ -86,7 +86,7 @@ static void plugin_check_rejects_stand_ins_that_others_lean_on(void **state)
     (void)state;
     REFUSES(m.resources[RECORDS].ping_pong = true, "need a fixed size");
     REFUSES(m.resources[STAND_IN].ping_pong = true, "need a fixed size");
-    REFUSES((m.resources[RECORDS].sizing = FM_SIZE_GROW, m.resources[RECORDS].overflow = "no-room"),
+    REFUSES((m.resources[RECORDS].sizing = FM_SIZE_GROW, m.resources[RECORDS].overflow = "stored"),
             "need a fixed size");
     REFUSES(
         (m.resources[STAND_IN + 1] =
