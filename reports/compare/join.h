@@ -18,8 +18,9 @@ typedef struct fm_pairs {
 /* Joins by id. What is left is joined by what names a case: method, scene, device as it was asked
  * for, feed, all keys, and options that are not the method's defaults in its own run; of these the
  * layout, which a device may have decided, always names it. So a case is found again when a new
- * version of its method, generator or driver, or another default, gave it another id. n counts where both tell it: of meshes it is measured. Each case is in one pair.
- * FM_NO_MEMORY. The caller frees. */
+ * version of its method, generator or driver, or another default, gave it another id. n counts
+ * where both tell it: of meshes it is measured. Each case is in one pair. FM_NO_MEMORY. The caller
+ * frees. */
 fm_status join_cases(fm_pairs *pairs, const fm_result_files *base, const fm_result_files *now,
                      fm_error *err);
 void join_free(fm_pairs *pairs);

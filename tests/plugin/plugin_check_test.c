@@ -340,95 +340,6 @@ static void plugin_check_rejects_bad_passes(void **state)
     REFUSES(m.passes[9].name = REST, "passes[9]");
 }
 
-/* A buffer `records` that the passes use, and behind it the image that layout=layer-major puts in
- * its place. */
-enum { RECORDS = DEPTH + 1, STAND_IN };
-static fm_method_desc with_stand_in(void)
-{
-    fm_method_desc m = sound();
-    m.resources[RECORDS] = (fm_resource){ .name = "records",
-                                          .element = FM_ELEMENT_UVEC2,
-                                          .extent = { .per_pixel_k = 1 } };
-    m.resources[STAND_IN] = (fm_resource){ .name = "records",
-                                           .kind = FM_RESOURCE_IMAGE,
-                                           .format = FM_FORMAT_RG32UI,
-                                           .extent = { .per_pixel_k = 1 },
-                                           .when_option = "layout",
-                                           .when_value = "layer-major" };
-    m.passes[CLEAR].writes[2] = "records";
-    m.passes[PEEL].writes[1] = "records";
-    m.passes[RESOLVE].reads[1] = "records";
-    return m;
-}
-
-#define REFUSES_STAND_IN(CHANGE, MESSAGE)                                                          \
-    do {                                                                                           \
-        fm_method_desc m = with_stand_in();                                                        \
-        CHANGE;                                                                                    \
-        assert_check_fails(&m, MESSAGE);                                                           \
-    } while (0)
-
-static void plugin_check_takes_a_stand_in(void **state)
-{
-    (void)state;
-    fm_error err = { .message = "" };
-    fm_method_desc m = with_stand_in();
-    if (plugin_check(&m, "test", &err) != FM_OK)
-        fail_msg("%s", err.message);
-    m.resources[STAND_IN + 1] = m.resources[STAND_IN]; /* one for each value, and one for none */
-    m.resources[STAND_IN + 1].when_value = "pixel";
-    if (plugin_check(&m, "test", &err) != FM_OK)
-        fail_msg("%s", err.message);
-}
-
-static void plugin_check_rejects_bad_conditions(void **state)
-{
-    (void)state;
-    REFUSES_STAND_IN(m.resources[STAND_IN].when_option = NULL, "'records' is there twice");
-    REFUSES_STAND_IN(m.resources[STAND_IN].when_value = NULL, "'records' is there twice");
-    REFUSES(m.resources[COLOUR].when_value = "pixel", "when_value 'pixel': needs when_option");
-    REFUSES(m.resources[COLOUR].when_option = "layout", "when_option 'layout': needs when_value");
-    REFUSES_STAND_IN(
-        m.resources[STAND_IN].when_option = "layot",
-        "resource 'records': when_option 'layot': no such option; nearest is 'layout'");
-    REFUSES_STAND_IN(m.resources[STAND_IN].when_value = "image",
-                     "when_value 'image': option 'layout' has no such value");
-    REFUSES_STAND_IN(m.resources[STAND_IN].name = "recorded", "no resource of this name without");
-    REFUSES_STAND_IN((m.resources[STAND_IN + 1] = m.resources[STAND_IN]),
-                     "when_value 'layer-major' is there twice");
-    REFUSES_STAND_IN((m.resources[STAND_IN + 1] = m.resources[STAND_IN],
-                      m.resources[STAND_IN + 1].when_option = "pages",
-                      m.resources[STAND_IN + 1].when_value = "8"),
-                     "when_option 'pages': another one has 'layout'");
-}
-
-/* What is sized, shared, counted or drawn into is always the same resource. */
-static void plugin_check_rejects_stand_ins_that_others_lean_on(void **state)
-{
-    (void)state;
-    REFUSES_STAND_IN(m.resources[RECORDS].ping_pong = true, "need a fixed size");
-    REFUSES_STAND_IN(m.resources[STAND_IN].ping_pong = true, "need a fixed size");
-    REFUSES_STAND_IN(
-        (m.resources[RECORDS].sizing = FM_SIZE_GROW, m.resources[RECORDS].overflow = "no-room"),
-        "need a fixed size");
-    REFUSES_STAND_IN(
-        (m.resources[STAND_IN + 1] =
-             (fm_resource){ .name = "sharer", .extent = { .constant = 2 }, .shares = "records" }),
-        "when_option: 'sharer' shares its memory");
-    REFUSES_STAND_IN(
-        (m.resources[RECORDS].element = FM_ELEMENT_UINT, m.totals[0].resource = "records"),
-        "resource 'records': with another value of 'layout' it is another resource");
-    REFUSES_STAND_IN(m.passes[STORE].targets[0].resource = "records",
-                     "'records': with another value of 'layout'");
-    REFUSES_STAND_IN(m.passes[STORE].state.depth_stencil = "records",
-                     "'records': with another value of 'layout'");
-    REFUSES_STAND_IN((m.passes[SPREAD].kind = FM_PASS_INDIRECT, m.passes[SPREAD].count_total = NULL,
-                      m.passes[SPREAD].indirect = "records"),
-                     "indirect 'records': with another value of 'layout'");
-    REFUSES_STAND_IN(m.resources[STAND_IN].samples = 4,
-                     "writes 'records': shaders store into colour images of one sample only");
-}
-
 /* Fields of ABI 5 that nothing uses so far: whoever asks for one is told so. */
 static void plugin_check_rejects_what_is_not_there_yet(void **state)
 {
@@ -516,9 +427,6 @@ int main(void)
         cmocka_unit_test(plugin_check_rejects_bad_images),
         cmocka_unit_test(plugin_check_rejects_bad_totals),
         cmocka_unit_test(plugin_check_rejects_bad_passes),
-        cmocka_unit_test(plugin_check_takes_a_stand_in),
-        cmocka_unit_test(plugin_check_rejects_bad_conditions),
-        cmocka_unit_test(plugin_check_rejects_stand_ins_that_others_lean_on),
         cmocka_unit_test(plugin_check_rejects_what_is_not_there_yet),
         cmocka_unit_test(plugin_check_takes_every_known_trait),
         cmocka_unit_test(plugin_check_rejects_bad_attachments),

@@ -134,8 +134,8 @@ typedef enum fm_marker {
  * whole numbers, NAME is the number itself. Its value, chosen or not, is part of a case's id and
  * stands in the column `options`.
  * The value `auto` of an option `layout` is the runner's: it means the fastest of the others on the
- * device, of `image`, `tile`, `layer` and `pixel` those that the method has, and never an image that
- * the device lacks. Cases, ids and shaders have what it means. */
+ * device, of `image`, `tile`, `layer` and `pixel` those that the method has, and never an image
+ * that the device lacks. Cases, ids and shaders have what it means. */
 typedef struct fm_option {
     const char *name; /* lower-case letters, digits, '-' and '_'; no key of the runner */
     const char *values[FM_MAX_OPTION_VALUES]; /* the first is the default; letters as in a name, or
