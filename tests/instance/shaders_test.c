@@ -108,7 +108,8 @@ static void build_locks(outcomes *seen, scene_kit *kit, kit_scene *scene)
     }
 }
 
-/* As on devices that need them, which this one may not be. */
+/* As on devices that need them, which this one may not be. Not by OSMesa: Mesa's OpenGL crashes
+ * where it compiles barriers in branches of compute shaders, and never has them. */
 static void every_lock_compiles_with_barriers_and_with_the_memory_model(void **state)
 {
     fm_device *device = device_of(state);
@@ -135,7 +136,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         ON_VULKAN_AND_OSMESA(every_shader_compiles),
-        ON_VULKAN_AND_OSMESA(every_lock_compiles_with_barriers_and_with_the_memory_model),
+        cmocka_unit_test_setup_teardown(every_lock_compiles_with_barriers_and_with_the_memory_model,
+                                        open_vulkan, close_opened),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
