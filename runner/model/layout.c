@@ -5,7 +5,7 @@
 
 #include "model/formula.h"
 
-/* Layouts from the fastest on, as measured: DECISIONS.md, 131. */
+/* Layouts from the fastest on, as measured: DECISIONS.md, 108. */
 typedef struct layout_rule {
     bool is_software, is_bounded; /* of the device; of the method: FM_TRAIT_BOUNDED */
     const char *order[4];

@@ -59,7 +59,7 @@ static void osmesa_refuses_samples_it_would_round_up(void **state)
     assert_non_null(strstr(err.message, "'slots': 2 samples"));
 }
 
-static void osmesa_says_when_an_image_finds_no_room(void **state)
+static void osmesa_refuses_an_image_above_its_limit_with_both_numbers(void **state)
 {
     (void)state;
     fm_error err = { .message = "" };
@@ -68,8 +68,9 @@ static void osmesa_says_when_an_image_finds_no_room(void **state)
                                  .width_px = 16384,
                                  .height_px = 16384,
                                  .layers = 64 };
-    assert_int_equal(try_image(&desc, &err), FM_NO_MEMORY);
-    assert_non_null(strstr(err.message, "'huge'"));
+    assert_int_equal(try_image(&desc, &err), FM_UNSUPPORTED);
+    assert_non_null(strstr(err.message, "'huge': 274877906944 bytes"));
+    assert_non_null(strstr(err.message, "end at 1073741824"));
 }
 
 static fm_status try_pipeline(const fm_pipeline_desc *desc, fm_error *err)
@@ -384,7 +385,7 @@ int main(void)
         cmocka_unit_test(osmesa_refuses_a_buffer_above_its_range_with_both_numbers),
         cmocka_unit_test(osmesa_refuses_a_buffer_by_address),
         cmocka_unit_test(osmesa_refuses_samples_it_would_round_up),
-        cmocka_unit_test(osmesa_says_when_an_image_finds_no_room),
+        cmocka_unit_test(osmesa_refuses_an_image_above_its_limit_with_both_numbers),
         cmocka_unit_test(osmesa_quotes_the_line_that_does_not_compile),
         cmocka_unit_test(osmesa_refuses_a_shader_that_does_not_link),
         cmocka_unit_test(osmesa_refuses_a_binding_beyond_its_end),
