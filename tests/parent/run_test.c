@@ -145,7 +145,7 @@ static void run_takes_missing_support_as_a_result(void **state)
     assert_int_equal(result.not_supported, 1);
     assert_int_equal(count_in_file(&fake, "calls", "unsupported"), 1);
     assert_in_file(&fake, "out/summary.csv", "not_supported,no interlock,unsupported");
-    assert_in_file(&fake, "out/summary.csv", ",feature\n");
+    assert_in_file(&fake, "out/summary.csv", ",feature,");
     fake_close(&fake);
 }
 
@@ -181,7 +181,7 @@ static void run_goes_on_with_a_journal_without_reasons(void **state)
     assert_int_equal(run_well(&fake).not_supported, 1);
     assert_int_equal(count_in_file(&fake, "calls", "unsupported"), 1);
     assert_in_file(&fake, "out/summary.csv", "not_supported,no interlock,unsupported");
-    assert_int_equal(count_in_file(&fake, "out/summary.csv", ",feature\n"), 0);
+    assert_int_equal(count_in_file(&fake, "out/summary.csv", ",feature,"), 0);
     fake_close(&fake);
 }
 
@@ -195,7 +195,7 @@ static void run_fails_the_cases_of_a_truth_for_its_reason(void **state)
     assert_int_equal(run_well(&fake).not_supported, 2);
     assert_int_equal(count_in_file(&fake, "out/summary.csv", "not_supported,no truth: too deep"),
                      2);
-    assert_int_equal(count_in_file(&fake, "out/summary.csv", ",suite-limit\n"), 2);
+    assert_int_equal(count_in_file(&fake, "out/summary.csv", ",suite-limit,"), 2);
     fake_close(&fake);
 }
 
