@@ -210,7 +210,7 @@ EOF
 cp "$source"/tests/plugins/{store,resolve}.glsl "$work/faulty/picky/"
 picky=(-q --device dummy -a n=4 -a height_px=12 -a frames=2)
 want 4 ab picky@"$work/faulty" picky@"$work/faulty" "${picky[@]}" --calibration none --band 100% --no-images \
-    -a width_px=16,20 --pairs 6 -o "$work/both-fail" --json
+    -a width_px=16,20 --pairs 20 -o "$work/both-fail" --json
 says '"unmeasured": 1'
 says '"same": 1'
 says '"status_base": "crash"'
