@@ -9,47 +9,77 @@
 //   FM_LOCK_BARRIERS  without that model, barriers of the owner alone, which order both ways
 //   neither           Mesa's software rasterisers, whose memory is coherent: barriers that invocations pass
 //                     a different number of times are miscompiled there
-#if FM_EXCLUSIVE && FM_LOOP_LIMIT > 0
+#if FM_EXCLUSIVE
+// Where a pixel's lock lies: in an image or a buffer of the method (lock_word.glsl), or in the runner's buffer.
+#if FM_LOCK_IN_IMAGE
+#define FM_LOCK_AT fm_word_image, ivec2(pixel)
+#define fm_lock_exchange imageAtomicExchange
+#define fm_lock_or imageAtomicOr
+#define fm_lock_store imageAtomicStore
+#else
+#if FM_LOCK_IN_WORD
+#define FM_LOCK_AT fm_words[fm_pixel_index(pixel)]
+#else
+#define FM_LOCK_AT fm_locks[fm_pixel_index(pixel)]
+#endif
+#define fm_lock_exchange atomicExchange
+#define fm_lock_or atomicOr
+#define fm_lock_store atomicStore
+#endif
+
+#if FM_LOOP_LIMIT > 0
 // A lock's owner may lose its processor for many milliseconds. The driver counts iterations of loops, so
 // waiting that long takes tries that are slow without a loop: 64 atomics, which change nothing.
-#define FM_WAIT_ONCE atomicOr(fm_locks[lock], 0u);
+#define FM_WAIT_ONCE fm_lock_or(FM_LOCK_AT, 0u);
 #define FM_WAIT_FOUR FM_WAIT_ONCE FM_WAIT_ONCE FM_WAIT_ONCE FM_WAIT_ONCE
 #define FM_WAIT_16   FM_WAIT_FOUR FM_WAIT_FOUR FM_WAIT_FOUR FM_WAIT_FOUR
-void fm_wait(uint lock)
+void fm_wait(uvec2 pixel)
 {
     FM_WAIT_16 FM_WAIT_16 FM_WAIT_16 FM_WAIT_16
 }
 #endif
 
-#if FM_EXCLUSIVE
-bool fm_lock(uint lock)
+// Whether this invocation has the lock now. One bit is set: the word's value stays, for others to cull by.
+bool fm_lock(uvec2 pixel)
 {
 #if FM_MEMORY_MODEL
-    return atomicExchange(fm_locks[lock], 1u, gl_ScopeDevice, FM_SHARED_STORAGE,
-                          gl_SemanticsAcquire | gl_SemanticsMakeVisible) == 0u;
+    fm_held = fm_lock_or(FM_LOCK_AT, FM_TAKEN, gl_ScopeDevice, FM_SHARED_STORAGE,
+                         gl_SemanticsAcquire | gl_SemanticsMakeVisible);
 #else
-    bool is_mine = atomicExchange(fm_locks[lock], 1u) == 0u;
-    if (is_mine)
+    fm_held = fm_lock_or(FM_LOCK_AT, FM_TAKEN);
+    if (fm_held < FM_TAKEN)
         fm_fence();
-    return is_mine;
+#endif
+    return fm_held < FM_TAKEN;
+}
+
+// Of a failed try, which found the word: whether the fragment is culled by now.
+bool fm_is_refused(float depth)
+{
+#if FM_LOCK_IN_WORD && FM_OWN_CULL
+    return !still_wanted(fm_held & ~FM_TAKEN, depth);
+#else
+    return false;
 #endif
 }
 
 // A store is cheaper than an exchange; by GLSL it is no atomic access, unless the memory model makes it one.
-void fm_unlock(uint lock)
+void fm_unlock(uvec2 pixel)
 {
 #if FM_MEMORY_MODEL && FM_LOCK_EXCHANGE
-    atomicExchange(fm_locks[lock], 0u, gl_ScopeDevice, FM_SHARED_STORAGE,
-                   gl_SemanticsRelease | gl_SemanticsMakeAvailable);
+    fm_lock_exchange(FM_LOCK_AT, fm_held, gl_ScopeDevice, FM_SHARED_STORAGE,
+                     gl_SemanticsRelease | gl_SemanticsMakeAvailable);
 #elif FM_MEMORY_MODEL
-    atomicStore(fm_locks[lock], 0u, gl_ScopeDevice, FM_SHARED_STORAGE,
-                gl_SemanticsRelease | gl_SemanticsMakeAvailable);
+    fm_lock_store(FM_LOCK_AT, fm_held, gl_ScopeDevice, FM_SHARED_STORAGE,
+                  gl_SemanticsRelease | gl_SemanticsMakeAvailable);
 #else
     fm_fence();
 #if FM_LOCK_EXCHANGE
-    atomicExchange(fm_locks[lock], 0u);
+    fm_lock_exchange(FM_LOCK_AT, fm_held);
+#elif FM_LOCK_IN_IMAGE
+    fm_store_word(pixel, fm_held);
 #else
-    fm_locks[lock] = 0u;
+    FM_LOCK_AT = fm_held;
 #endif
 #endif
 }
@@ -62,22 +92,24 @@ void fm_take(uvec2 pixel, float depth, uint colour)
         fm_culled();
         return;
     }
-    uint lock = fm_pixel_index(pixel);
-    bool is_done = false;
-    FM_LOOP for (uint tries = 0u; !is_done && tries < uint(FM_SPIN_MAX); ++tries) {
-        bool is_mine = fm_lock(lock);
+    bool is_done = false, is_refused = false;
+    FM_LOOP for (uint tries = 0u; !is_done && !is_refused && tries < uint(FM_SPIN_MAX); ++tries) {
+        bool is_mine = fm_lock(pixel);
         if (is_mine) {
             store(pixel, depth, colour);
-            fm_unlock(lock);
+            fm_unlock(pixel);
             is_done = true;
         }
+        is_refused = !is_done && fm_is_refused(depth);
 #if FM_LOOP_LIMIT > 0
         if (!is_mine && tries >= 64u)
-            fm_wait(lock);
+            fm_wait(pixel);
 #endif
     }
     if (is_done)
         fm_locked();
+    else if (is_refused)
+        fm_culled();
     else
         fm_lost(pixel);
 #else

@@ -116,6 +116,8 @@ static const fm_field pass_fields[] = {
     PART(fm_pass, targets, fm_target, &target_layout),
     PART(fm_pass, state, fm_state, &state_layout),
     BOOL(fm_pass, exclusive),
+    TEXT(fm_pass, lock_word),
+    TEXT(fm_pass, lock_word_option),
     BOOL(fm_pass, emits),
     BOOL(fm_pass, flat_tessellation),
     TEXT(fm_pass, count_total),

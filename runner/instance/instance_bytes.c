@@ -10,7 +10,10 @@ enum { LOCK_BYTES = 4 }; /* a word a pixel */
 uint64_t lock_bytes(const fm_instance *instance)
 {
     const uint64_t pixels = (uint64_t)instance->workload.width_px * instance->workload.height_px;
-    return instance->is_spin_locked ? pixels * LOCK_BYTES : 0;
+    for (size_t i = 0; i < instance->pass_count; i++)
+        if (pass_has_own_locks(instance, &instance->method->passes[i]))
+            return pixels * LOCK_BYTES;
+    return 0;
 }
 
 uint64_t instance_bytes_predicted(const fm_instance *instance)

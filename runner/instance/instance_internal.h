@@ -112,6 +112,10 @@ uint32_t pass_feed_step(const fm_instance *instance, const fm_pass *pass);
 bool pass_reads_triangles(const fm_instance *instance, const fm_pass *pass);
 /* Its store() is guarded by the device's interlock, not by a spin lock. */
 bool pass_has_interlock(const fm_instance *instance, const fm_pass *pass);
+/* Its spin lock lies in the pass's lock_word. */
+bool pass_has_lock_in_word(const fm_instance *instance, const fm_pass *pass);
+/* Its spin lock lies in the runner's buffer fm_locks. */
+bool pass_has_own_locks(const fm_instance *instance, const fm_pass *pass);
 /* Its lock acquires and releases by Vulkan's memory model, instead of barriers. */
 bool pass_has_memory_model(const fm_instance *instance, const fm_pass *pass);
 /* The first pass that emits: it starts the picture. */

@@ -145,7 +145,7 @@ fm_status resources_create_fixed(fm_instance *instance, fm_error *err)
     for (size_t i = 0; i < instance->resource_count && status == FM_OK; i++)
         if (instance->method->resources[i].sizing != FM_SIZE_AFTER_TOTAL)
             status = create_resource(instance, i, err);
-    if (status == FM_OK && instance->is_spin_locked)
+    if (status == FM_OK && lock_bytes(instance) > 0)
         status = create_locks(instance, err);
     return status == FM_OK ? table_upload(instance, err) : status;
 }

@@ -79,6 +79,8 @@ static fm_status add_body(fm_text *text, const fm_instance *instance, const fm_p
     if (status == FM_OK && (pass_is_scene(pass) || reads_triangles) &&
         pass->cover == FM_COVER_NONE && scene_is_layers(instance->desc.stage->scene))
         status = shader_add_file(text, folders, "common/layers.glsl", err);
+    if (status == FM_OK && pass->exclusive)
+        status = shader_add_file(text, folders, "common/lock_word.glsl", err);
     if (pass->kind != FM_PASS_PIXELS && !pass_is_scene(pass))
         text_add(text, "uint fm_lane;\n");
     if (status == FM_OK && reads_triangles)

@@ -85,6 +85,29 @@ static bool tells_cut(const fm_instance *instance)
     return limit > 0 && (instance->desc.is_capture || comparisons > limit / 16);
 }
 
+/* Where the words lie that lock.glsl exchanges, and lock_word.glsl reads. */
+static void define_lock(fm_text *text, const fm_instance *instance, const fm_pass *pass)
+{
+    const char *word = pass->exclusive ? pass->lock_word : NULL;
+    const bool in_word = pass_has_lock_in_word(instance, pass);
+    const bool is_image =
+        word != NULL && instance->method->resources[resource_find(instance->method, word).index]
+                                .kind == FM_RESOURCE_IMAGE;
+    shader_define(text, "FM_HAS_LOCK_WORD", word != NULL);
+    shader_define(text, "FM_LOCK_IN_WORD", in_word);
+    shader_define(text, "FM_LOCK_IN_IMAGE", in_word && is_image);
+    if (is_image)
+        text_add(text, "#define fm_word_image fm_image_%s\n"
+                       "#define fm_load_word(pixel) fm_load_%s(pixel).x\n"
+                       "#define fm_store_word(pixel, value) fm_store_%s(pixel, uvec4(value))\n",
+                 word, word, word);
+    else if (word != NULL)
+        text_add(text, "#define fm_words %s\n"
+                       "#define fm_load_word(pixel) %s[fm_pixel_index(pixel)]\n"
+                       "#define fm_store_word(pixel, value) %s[fm_pixel_index(pixel)] = value\n",
+                 word, word, word);
+}
+
 void pass_define(fm_text *text, const fm_instance *instance, const fm_pass *pass)
 {
     const fm_device_caps *caps = &instance->device->caps;
@@ -95,6 +118,7 @@ void pass_define(fm_text *text, const fm_instance *instance, const fm_pass *pass
     shader_define(text, "FM_LOCK_EXCHANGE", release_exchanges(instance, pass));
     shader_define(text, "FM_MEMORY_MODEL", pass_has_memory_model(instance, pass));
     shader_define(text, "FM_EXCLUSIVE", pass->exclusive && instance->is_spin_locked);
+    define_lock(text, instance, pass);
     shader_define(text, "FM_INTERLOCK", pass_has_interlock(instance, pass));
     shader_define(text, "FM_TARGETS", pass_has_fixed_function(pass));
     shader_define(text, "FM_EMIT_FIRST", pass_emits_first(instance, pass));

@@ -85,12 +85,28 @@ bool pass_is_drawn(const fm_instance *instance, const fm_pass *pass)
             instance->desc.settings->full_screen == FM_FULL_SCREEN_FRAGMENT);
 }
 
+/* Whether an option has a value; without a name, always. */
+static bool option_is(const fm_instance *instance, const char *option, const char *value)
+{
+    const char *chosen =
+        option != NULL ? instance->workload.option(&instance->workload, option) : value;
+    return chosen != NULL && strcmp(chosen, value) == 0;
+}
+
 static bool is_flat(const fm_instance *instance, const fm_pass *pass)
 {
-    if (!pass->flat_tessellation || pass->flat_option == NULL)
-        return pass->flat_tessellation;
-    const char *value = instance->workload.option(&instance->workload, pass->flat_option);
-    return value != NULL && strcmp(value, "flat") == 0;
+    return pass->flat_tessellation && option_is(instance, pass->flat_option, "flat");
+}
+
+bool pass_has_lock_in_word(const fm_instance *instance, const fm_pass *pass)
+{
+    return pass->exclusive && instance->is_spin_locked && pass->lock_word != NULL &&
+           option_is(instance, pass->lock_word_option, "lock");
+}
+
+bool pass_has_own_locks(const fm_instance *instance, const fm_pass *pass)
+{
+    return pass->exclusive && instance->is_spin_locked && !pass_has_lock_in_word(instance, pass);
 }
 
 fm_geometry pass_geometry(const fm_instance *instance, const fm_pass *pass)

@@ -74,7 +74,7 @@ void pass_collect_uses(built_pass *built, fm_instance *instance, const fm_pass *
                      is_shared);
     for (int i = 0; i < FM_MAX_ACCESSES && pass->writes[i] != NULL; i++)
         add_resource(built, instance, pass->writes[i], FM_ACCESS_READ | FM_ACCESS_WRITE, is_shared);
-    if (pass->exclusive && instance->is_spin_locked)
+    if (pass_has_own_locks(instance, pass))
         add_use(built, &instance->locks, FM_ACCESS_READ | FM_ACCESS_WRITE, true,
                 (resource_ref){ .index = -1 });
     pass_use_stage(built, instance, STAGE_COUNTERS, FM_ACCESS_READ | FM_ACCESS_WRITE);

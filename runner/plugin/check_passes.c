@@ -7,6 +7,7 @@
 #include "check_method.h"
 #include "culling_apply.h"
 #include "model/formats.h"
+#include "model/formula.h"
 
 enum { NAME_MAX_BYTES = 64 };
 
@@ -171,24 +172,63 @@ static fm_status check_kind_draws(const fm_pass *pass, fm_error *err)
     return FM_OK;
 }
 
-/* flat_option: an option that can be "flat". */
+/* A field that names an option, which has to have a value. */
+static fm_status check_option_of(const fm_checked_method *check, const char *field,
+                                 const char *option, const char *value, fm_error *err)
+{
+    size_t index;
+    const fm_status status = check_known(&index, option, field, &check->options, err);
+    if (status != FM_OK || option_has_value(&check->method->options[index], value))
+        return status;
+    return fm_fail(err, FM_INVALID, "%s '%s': has no value '%s'", field, option, value);
+}
+
 static fm_status check_flat_option(const fm_checked_method *check, const fm_pass *pass,
                                    fm_error *err)
 {
-    size_t index;
     if (pass->flat_option == NULL)
         return FM_OK;
     if (!pass->flat_tessellation)
         return fm_fail(err, FM_INVALID, "flat_option: needs flat_tessellation");
-    const fm_status status =
-        check_known(&index, pass->flat_option, "flat_option", &check->options, err);
-    if (status != FM_OK)
-        return status;
-    const fm_option *option = &check->method->options[index];
-    for (int i = 0; i < FM_MAX_OPTION_VALUES && option->values[i] != NULL; i++)
-        if (strcmp(option->values[i], "flat") == 0)
-            return FM_OK;
-    return fm_fail(err, FM_INVALID, "flat_option '%s': has no value 'flat'", pass->flat_option);
+    return check_option_of(check, "flat_option", pass->flat_option, "flat", err);
+}
+
+/* One word for each pixel, whichever of its name it is. */
+static bool is_word_a_pixel(const fm_resource *r)
+{
+    const fm_extent one = { .per_pixel = 1 };
+    if (r->kind == FM_RESOURCE_IMAGE)
+        return r->format == FM_FORMAT_R32UI && !image_is_array(r) && r->samples <= 1 &&
+               r->samples_per_k == 0 && r->samples_option == NULL && !r->ping_pong;
+    return r->element == FM_ELEMENT_UINT && r->sizing == FM_SIZE_FIXED && !r->ping_pong &&
+           memcmp(&r->extent, &one, sizeof one) == 0;
+}
+
+static fm_status check_lock_word(const fm_checked_method *check, const fm_pass *pass, fm_error *err)
+{
+    const char *word = pass->lock_word;
+    bool is_written = false;
+    if (word == NULL && pass->lock_word_option == NULL)
+        return FM_OK;
+    if (word == NULL)
+        return fm_fail(err, FM_INVALID, "lock_word_option: needs lock_word");
+    if (!pass->exclusive)
+        return fm_fail(err, FM_INVALID, "lock_word: only exclusive passes have one");
+    for (int i = 0; i < FM_MAX_ACCESSES && pass->writes[i] != NULL; i++)
+        is_written = is_written || strcmp(pass->writes[i], word) == 0;
+    if (!is_written)
+        return fm_fail(err, FM_INVALID, "lock_word '%s': does not stand in writes", word);
+    for (size_t i = 0; i < check->resources.count; i++) {
+        const fm_resource *r = &check->method->resources[i];
+        if (strcmp(r->name, word) == 0 && !is_word_a_pixel(r))
+            return fm_fail(err, FM_INVALID,
+                           "lock_word '%s': needs one word a pixel: a fixed buffer of "
+                           "FM_ELEMENT_UINT, or an image of FM_FORMAT_R32UI with one layer and "
+                           "one sample", word);
+    }
+    return pass->lock_word_option != NULL
+               ? check_option_of(check, "lock_word_option", pass->lock_word_option, "lock", err)
+               : FM_OK;
 }
 
 static fm_status check_lanes(const fm_pass *pass, const char *name, uint32_t lanes, fm_error *err)
@@ -230,7 +270,9 @@ static fm_status check_flags(const fm_checked_method *check, const fm_pass *pass
     fm_status status = check_lanes(pass, "lanes", pass->lanes, err);
     if (status == FM_OK)
         status = check_lanes(pass, "lanes_narrow", pass->lanes_narrow, err);
-    return status == FM_OK ? check_flat_option(check, pass, err) : status;
+    if (status == FM_OK)
+        status = check_flat_option(check, pass, err);
+    return status == FM_OK ? check_lock_word(check, pass, err) : status;
 }
 
 /* count_total and indirect: needed by one kind, forbidden to the others. */

@@ -340,6 +340,46 @@ static void plugin_check_rejects_bad_passes(void **state)
     REFUSES(m.passes[9].name = REST, "passes[9]");
 }
 
+/* Of "counts" one word a pixel, which the exclusive pass writes. */
+static fm_method_desc with_lock_word(void)
+{
+    fm_method_desc m = sound();
+    m.options[1].values[0] = "lock";
+    m.options[1].values[1] = "own";
+    m.resources[1].extent = (fm_extent){ .per_pixel = 1 };
+    m.resources[1].ping_pong = false;
+    m.passes[PEEL].reads[0] = NULL;
+    m.passes[STORE].writes[2] = "counts";
+    m.passes[STORE].lock_word = "counts";
+    m.passes[STORE].lock_word_option = "pages";
+    return m;
+}
+
+static void plugin_check_rejects_bad_lock_words(void **state)
+{
+    (void)state;
+    ACCEPTS(m = with_lock_word());
+    ACCEPTS((m = with_lock_word(), m.passes[STORE].lock_word_option = NULL));
+    REFUSES((m = with_lock_word(), m.passes[STORE].lock_word = NULL),
+            "lock_word_option: needs lock_word");
+    REFUSES((m = with_lock_word(), m.passes[STORE].lock_word_option = "page"),
+            "lock_word_option 'page': no such option; nearest is 'pages'");
+    REFUSES((m = with_lock_word(), m.passes[STORE].lock_word_option = "layout"),
+            "lock_word_option 'layout': has no value 'lock'");
+    REFUSES((m = with_lock_word(), m.passes[STORE].exclusive = false),
+            "lock_word: only exclusive passes have one");
+    REFUSES((m = with_lock_word(), m.passes[STORE].lock_word = "count"),
+            "lock_word 'count': does not stand in writes");
+    REFUSES((m = with_lock_word(), m.passes[STORE].lock_word = "pool"),
+            "lock_word 'pool': needs one word a pixel");
+    REFUSES((m = with_lock_word(), m.passes[STORE].lock_word = "fragments"),
+            "lock_word 'fragments': needs one word a pixel");
+    REFUSES((m = with_lock_word(), m.resources[1].element = FM_ELEMENT_FLOAT),
+            "lock_word 'counts': needs one word a pixel");
+    REFUSES((m = with_lock_word(), m.resources[1].extent.constant = 1),
+            "lock_word 'counts': needs one word a pixel");
+}
+
 /* Fields of ABI 5 that nothing uses so far: whoever asks for one is told so. */
 static void plugin_check_rejects_what_is_not_there_yet(void **state)
 {
@@ -427,6 +467,7 @@ int main(void)
         cmocka_unit_test(plugin_check_rejects_bad_images),
         cmocka_unit_test(plugin_check_rejects_bad_totals),
         cmocka_unit_test(plugin_check_rejects_bad_passes),
+        cmocka_unit_test(plugin_check_rejects_bad_lock_words),
         cmocka_unit_test(plugin_check_rejects_what_is_not_there_yet),
         cmocka_unit_test(plugin_check_takes_every_known_trait),
         cmocka_unit_test(plugin_check_rejects_bad_attachments),

@@ -66,7 +66,12 @@
  *   locks         an exclusive store() runs alone at its pixel. A spin lock gives up after
  *                 FM_SPIN_MAX tries and counts the fragment as lost. The lock orders accesses to
  *                 the buffers and images in `writes`: what one owner stored the next one loads.
- *                 wanted() runs beside an owner, and may read what is older
+ *                 wanted() runs beside an owner, and may read what is older. Of a pass with a
+ *                 lock_word, store() reads and writes the pixel's word by fm_lock_word(pixel) and
+ *                 fm_set_lock_word(pixel, value). Where the lock lies in it, whoever took the lock
+ *                 has the word already, and frees the lock by storing it: 31 bits, beside one
+ *                 that tells that the lock is taken. So whoever tries in vain has the word, too;
+ *                 the pass defines bool still_wanted(uint word, float depth), the cull by it
  *   order         fm_fence() between two accesses to buffers or images that others must see in
  *                 this order
  *   devices       FM_SUBGROUP_SIZE; FM_NARROW, 1 where that is below 32; FM_GROUP_LANES; for each
@@ -228,6 +233,10 @@ typedef struct fm_pass {
     fm_state state;                      /* FM_PASS_SCENE, _PIXELS */
     bool exclusive; /* FM_PASS_SCENE: store() runs alone at its pixel, under a spin lock or an
                        interlock, as the runner's key `lock` says */
+    const char *lock_word; /* exclusive: a resource of `writes` with one word a pixel (a buffer of
+                              FM_ELEMENT_UINT, or an image of FM_FORMAT_R32UI), in which the spin
+                              lock lies, too: see locks above */
+    const char *lock_word_option; /* it lies in there only where this option is "lock" */
     bool emits;     /* FM_PASS_PIXELS, _TILES, _INDIRECT: calls fm_emit. The last such pass
                        completes the image. Every method has one, but for a floor */
     bool flat_tessellation;  /* FM_PASS_SCENE: what it does with fragments does not depend on the
