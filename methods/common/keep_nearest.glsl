@@ -1,5 +1,8 @@
-// Bounded k+-buffers: wanted() and store() over place(), of the max-array or the max-heap. Slot 0 is what a
-// fragment must beat: infinity until there are K, then the farthest of them. So a full pixel's counter is not read.
+// Bounded k+-buffers: wanted() and store() over place(), of the max-array or the max-heap. A fragment must beat
+// slot 0: infinity until there are K, then the farthest of them. Who takes the lock knows as much from its word,
+// and reads neither slot 0 nor a counter.
+#include "common/nearest_word.glsl"
+
 #ifndef OWN_FARTHEST
 uint farthest_bits(uvec2 pixel)
 {
@@ -9,22 +12,24 @@ uint farthest_bits(uvec2 pixel)
 
 // Section 3.2, fragment culling: only what is nearer than the farthest kept one enters the section. Read
 // without the lock: slot 0 only ever comes nearer, so a stale value culls too little, never too much;
-// store() tests again.
+// store() tests again. The word would tell it, too, but waits for those who take the lock.
 bool wanted(uvec2 pixel, float depth)
 {
     return fm_pack(depth, 0u).x < farthest_bits(pixel);
+}
+
+bool still_wanted(uint word, float depth)
+{
+    return fm_pack(depth, 0u).x < word;
 }
 
 // All ways to store end in one write, since software rasterisers run both sides of every branch.
 void store(uvec2 pixel, float depth, uint colour)
 {
     uvec2 fragment = fm_pack(depth, colour);
-    uint i = fm_pixel_index(pixel), count = K, farthest = farthest_bits(pixel);
-    if (fragment.x >= farthest)
+    uint word = fm_lock_word(pixel), count = count_in(word), farthest = fragment.x;
+    if (fragment.x >= word)
         return;
-    if (farthest == FM_EMPTY_BITS) {
-        count = counters[i];
-        counters[i] = count + 1u;
-    }
-    keep_at(pixel, place(pixel, count, fragment), fragment);
+    keep_at(pixel, place(pixel, count, fragment, farthest), fragment);
+    fm_set_lock_word(pixel, count + 1u < K ? word - 1u : farthest);
 }

@@ -1,4 +1,5 @@
 #include "common/kept.glsl"
+#include "kplus-array/counter.glsl"
 
 // Where the i-th of `count` fragments lies: in the last slots.
 #ifndef SLOT_OF
@@ -19,7 +20,7 @@ void put_fragment(uvec2 pixel, uint i, uvec2 fragment)
 
 void resolve(uvec2 pixel)
 {
-    emit_in_place(pixel, counters[fm_pixel_index(pixel)]);
+    emit_in_place(pixel, count_of(pixel));
 }
 #else
 #ifndef SORT_CAPACITY
@@ -29,7 +30,7 @@ void resolve(uvec2 pixel)
 
 void resolve(uvec2 pixel)
 {
-    uint count = counters[fm_pixel_index(pixel)];
+    uint count = count_of(pixel);
     FM_LOOP for (uint i = 0u; i < count; ++i)
         sorted[i] = kept_at(pixel, SLOT_OF(i));
     sort_fragments(count);

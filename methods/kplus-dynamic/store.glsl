@@ -10,9 +10,10 @@
 #include "kplus-heap/max_heap.glsl"
 #undef place
 
-uint place(uvec2 pixel, uint count, uvec2 fragment)
+uint place(uvec2 pixel, uint count, uvec2 fragment, inout uint farthest_bits)
 {
-    return in_heap() ? heap_place(pixel, count, fragment) : array_place(pixel, count, fragment);
+    return in_heap() ? heap_place(pixel, count, fragment, farthest_bits)
+                     : array_place(pixel, count, fragment, farthest_bits);
 }
 
 #include "common/keep_nearest.glsl"

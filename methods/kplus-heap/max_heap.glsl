@@ -6,9 +6,9 @@
 #define CHILDREN 2
 #endif
 
-// The slot for a fragment that is nearer than the root and comes to `count` others, O(log k): the farthest child
-// moves up.
-uint place(uvec2 pixel, uint count, uvec2 fragment)
+// The slot for a fragment that comes to `count` others, or is nearer than the root, O(log k): the farthest child
+// moves up. Where all K are there then, `farthest_bits` is the root's depth.
+uint place(uvec2 pixel, uint count, uvec2 fragment, inout uint farthest_bits)
 {
     uint at = K - 1u - min(count, K - 1u), child = uint(CHILDREN) * at + 1u;
     FM_LOOP while (child < K) {
@@ -25,6 +25,7 @@ uint place(uvec2 pixel, uint count, uvec2 fragment)
         if (farthest.x <= fragment.x)
             break;
         keep_at(pixel, at, farthest);
+        farthest_bits = at == 0u ? farthest.x : farthest_bits;
         at = from;
         child = uint(CHILDREN) * at + 1u;
     }

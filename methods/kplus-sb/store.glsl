@@ -17,11 +17,11 @@ uint farthest_bits(uvec2 pixel)
     return is_deep(pixel) ? kept_bits_at(pixel, 0u) : FM_EMPTY_BITS;
 }
 
-uint place(uvec2 pixel, uint count, uvec2 fragment)
+uint place(uvec2 pixel, uint count, uvec2 fragment, inout uint farthest_bits)
 {
     uint slot = count;
     if (is_deep(pixel))
-        slot = deep_place(pixel, count, fragment);
+        slot = deep_place(pixel, count, fragment, farthest_bits);
     return slot;
 }
 

@@ -203,14 +203,19 @@ bool kit_has_ties(const fm_truth *truth)
 void kit_layout_in_turn(char texts[96], const char *given, const fm_method_desc *method,
                         size_t number)
 {
-    const fm_option *layout = option_find(method, LAYOUT_OPTION);
-    size_t count = 0;
-    while (layout != NULL && count < FM_MAX_OPTION_VALUES && layout->values[count] != NULL)
-        count++;
-    if (count == 0)
-        snprintf(texts, 96, "%s", given);
-    else
-        snprintf(texts, 96, "%s " LAYOUT_OPTION "=%s", given, layout->values[number % count]);
+    static const char *const names[] = { LAYOUT_OPTION, "count_in" };
+    size_t used = (size_t)snprintf(texts, 96, "%s", given);
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        const fm_option *option = option_find(method, names[i]);
+        size_t count = 0;
+        while (option != NULL && count < FM_MAX_OPTION_VALUES && option->values[count] != NULL)
+            count++;
+        if (count == 0)
+            continue;
+        used += (size_t)snprintf(texts + used, 96 - used, " %s=%s", names[i],
+                                 option->values[number % count]);
+        number /= count;
+    }
 }
 
 void kit_tell(char text[256], const kit_way *way)
