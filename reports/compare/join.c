@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/text_index.h"
-#include "model/layout.h"
+#include "model/auto_option.h"
 #include "read/options.h"
 #include "read/workload.h"
 

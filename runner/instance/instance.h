@@ -7,7 +7,7 @@
 #ifndef FM_INSTANCE_H
 #define FM_INSTANCE_H
 
-#include "model/layout.h"
+#include "model/auto_option.h"
 #include "plugin/hook_mark.h"
 #include "stage/stage.h"
 

@@ -12,8 +12,8 @@
 #include "base/text.h"
 #include "base/text_index.h"
 #include "device/registry.h"
+#include "model/auto_option.h"
 #include "model/descriptor.h"
-#include "model/layout.h"
 #include "model/outcome.h"
 #include "model/settings.h"
 #include "plugin/plugin.h"
@@ -39,7 +39,7 @@ typedef struct fm_case {
                                    that cannot be read), or FM_CASE_PLUGIN_ERROR (it was refused) */
     fm_reason skip_reason;      /* with FM_CASE_NOT_SUPPORTED its word; else FM_REASON_NONE */
     bool is_unread;             /* it is skipped because its scene's file cannot be read */
-    bool has_auto_layout;       /* its layout was left to the runner (model/layout.h) */
+    bool has_auto_layout;       /* its layout was left to the runner (model/auto_option.h) */
     bool no_image;              /* its picture is not kept; no part of its id */
 } fm_case;
 
@@ -59,8 +59,7 @@ typedef struct fm_plan_request {
                                 or feed, which add to the lists above */
     /* What a device is, as far as layout=auto hangs on it; asked once a device, and only where a
      * case has that layout. NULL, or an error, which the plan keeps: such cases have `auto`. */
-    fm_status (*ask)(fm_layout_device *device, const void *context, const char *name,
-                     fm_error *err);
+    fm_status (*ask)(fm_auto_device *device, const void *context, const char *name, fm_error *err);
     const void *context;
 } fm_plan_request;
 

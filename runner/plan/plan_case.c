@@ -164,11 +164,11 @@ static bool know_device(const fm_plan_point *point)
 
 static void work_out_layout(fm_case *made, const fm_plan_point *point)
 {
-    const fm_layout_case of = layout_case(point->entry->plugin->method, &made->settings, 0);
+    const fm_auto_case of = auto_case(point->entry->plugin->method, &made->settings, 0);
     for (size_t i = 0; i < made->choice_count; i++)
-        made->has_auto_layout |= layout_is_open(&made->choices[i]);
+        made->has_auto_layout |= auto_is_open(&made->choices[i]);
     if (made->has_auto_layout && know_device(point))
-        layout_resolve(made->choices, made->choice_count, &of, &point->device_memo->device);
+        auto_resolve(made->choices, made->choice_count, &of, &point->device_memo->device);
 }
 
 static void list_names(fm_text *why, const char *const *names, size_t count)

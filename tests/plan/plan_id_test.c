@@ -41,17 +41,17 @@ static const fm_method_desc open_layout = {
 };
 
 /* Answers of devices; the context counts who asks. */
-static fm_status ask_gpu(fm_layout_device *device, const void *context, const char *name,
+static fm_status ask_gpu(fm_auto_device *device, const void *context, const char *name,
                          fm_error *err)
 {
     (void)err;
     ++**(unsigned *const *)context;
     assert_string_equal(name, "vulkan");
-    *device = (fm_layout_device){ .image_layers = 16, .image_max_bytes = 1 << 30 };
+    *device = (fm_auto_device){ .image_layers = 16, .image_max_bytes = 1 << 30 };
     return FM_OK;
 }
 
-static fm_status ask_nobody(fm_layout_device *device, const void *context, const char *name,
+static fm_status ask_nobody(fm_auto_device *device, const void *context, const char *name,
                             fm_error *err)
 {
     (void)device;
@@ -59,7 +59,7 @@ static fm_status ask_nobody(fm_layout_device *device, const void *context, const
     return fm_fail(err, FM_IO, "%s: no driver", name);
 }
 
-typedef fm_status asker(fm_layout_device *, const void *, const char *, fm_error *);
+typedef fm_status asker(fm_auto_device *, const void *, const char *, fm_error *);
 
 static void expand_open(fm_plan *plan, const fm_method_desc *method, const char *axis, asker *ask,
                         unsigned *asked)

@@ -7,8 +7,8 @@
 #include <cmocka.h>
 #include <string.h>
 
+#include "model/auto_option.h"
 #include "model/formula.h"
-#include "model/layout.h"
 
 /* Records of k a pixel: in a buffer, or on k layers. */
 static fm_method_desc make_method(uint32_t traits)
@@ -69,18 +69,17 @@ static void without_choices_the_first_value_counts(void **state)
     assert_int_equal(chosen.resources[1].kind, FM_RESOURCE_IMAGE);
 }
 
-static const fm_layout_device gpu = { .image_layers = 64, .image_max_bytes = 8 * 6 * 32 };
-static const fm_layout_device software = { .is_software = true,
-                                           .image_layers = 64,
-                                           .image_max_bytes = 1 << 20 };
+static const fm_auto_device gpu = { .image_layers = 64, .image_max_bytes = 8 * 6 * 32 };
+static const fm_auto_device software = { .is_software = true,
+                                         .image_layers = 64,
+                                         .image_max_bytes = 1 << 20 };
 
 /* 3 x 2 pixels. */
-static const char *resolved(const fm_method_desc *method, uint32_t k,
-                            const fm_layout_device *device)
+static const char *resolved(const fm_method_desc *method, uint32_t k, const fm_auto_device *device)
 {
     static fm_choice choices[FM_MAX_OPTIONS];
-    const fm_layout_case of = { .method = method, .width_px = 3, .height_px = 2, .k = k };
-    assert_int_equal(layout_choices(choices, NULL, 0, &of, device), 2);
+    const fm_auto_case of = { .method = method, .width_px = 3, .height_px = 2, .k = k };
+    assert_int_equal(auto_choices(choices, NULL, 0, &of, device), 2);
     assert_string_equal(choices[1].value, "4");
     return choices[0].value;
 }
@@ -98,7 +97,7 @@ static void an_image_that_a_device_lacks_is_not_taken(void **state)
 {
     (void)state;
     const fm_method_desc method = make_method(FM_TRAIT_BOUNDED);
-    fm_layout_device device = gpu;
+    fm_auto_device device = gpu;
     assert_string_equal(resolved(&method, 32, &device), "image");
     assert_string_equal(resolved(&method, 33, &device), "tile");
     device.image_max_bytes *= 4;
@@ -116,13 +115,13 @@ static void a_shared_map_keeps_arrays_in_buffers(void **state)
     settings_default(&settings);
     settings.width_px = 3;
     settings.height_px = 2;
-    fm_layout_case of = layout_case(&method, &settings, 0);
-    layout_choices(choices, NULL, 0, &of, &gpu);
+    fm_auto_case of = auto_case(&method, &settings, 0);
+    auto_choices(choices, NULL, 0, &of, &gpu);
     assert_string_equal(choices[0].value, "image");
     settings.culling = FM_CULLING_OCCUPANCY;
     settings.cull_memory = FM_CULL_MEMORY_SHARED;
-    of = layout_case(&method, &settings, 0);
-    layout_choices(choices, NULL, 0, &of, &gpu);
+    of = auto_case(&method, &settings, 0);
+    auto_choices(choices, NULL, 0, &of, &gpu);
     assert_string_equal(choices[0].value, "tile");
 }
 
@@ -141,11 +140,11 @@ static void a_layout_that_was_chosen_stays(void **state)
 {
     (void)state;
     const fm_method_desc method = make_method(FM_TRAIT_BOUNDED);
-    const fm_layout_case of = { .method = &method, .width_px = 3, .height_px = 2, .k = 8 };
+    const fm_auto_case of = { .method = &method, .width_px = 3, .height_px = 2, .k = 8 };
     fm_choice choices[FM_MAX_OPTIONS];
-    layout_choices(choices, &by_tile, 1, &of, &gpu);
+    auto_choices(choices, &by_tile, 1, &of, &gpu);
     assert_string_equal(choices[0].value, "tile");
-    assert_false(layout_is_open(&choices[0]));
+    assert_false(auto_is_open(&choices[0]));
 }
 
 int main(void)

@@ -1,4 +1,4 @@
-#include "layout.h"
+#include "auto_option.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -19,18 +19,18 @@ static const layout_rule rules[] = {
 };
 enum { ORDER_LENGTH = sizeof rules[0].order / sizeof rules[0].order[0] };
 
-fm_layout_case layout_case(const fm_method_desc *method, const fm_settings *settings, uint32_t n)
+fm_auto_case auto_case(const fm_method_desc *method, const fm_settings *settings, uint32_t n)
 {
-    return (fm_layout_case){ .method = method,
-                             .width_px = settings->width_px,
-                             .height_px = settings->height_px,
-                             .k = settings->k,
-                             .n = n,
-                             .needs_buffers = settings->culling == FM_CULLING_OCCUPANCY &&
-                                              settings->cull_memory == FM_CULL_MEMORY_SHARED };
+    return (fm_auto_case){ .method = method,
+                           .width_px = settings->width_px,
+                           .height_px = settings->height_px,
+                           .k = settings->k,
+                           .n = n,
+                           .needs_buffers = settings->culling == FM_CULLING_OCCUPANCY &&
+                                            settings->cull_memory == FM_CULL_MEMORY_SHARED };
 }
 
-bool layout_is_open(const fm_choice *choice)
+bool auto_is_open(const fm_choice *choice)
 {
     return strcmp(choice->name, LAYOUT_OPTION) == 0 && strcmp(choice->value, LAYOUT_AUTO) == 0;
 }
@@ -49,8 +49,7 @@ static const char *chosen_of(const fm_workload *workload, const char *name)
 }
 
 /* Whether the device has the images that the method asks for. */
-static bool fits(const asked_choices *asked, const fm_layout_case *of,
-                 const fm_layout_device *device)
+static bool fits(const asked_choices *asked, const fm_auto_case *of, const fm_auto_device *device)
 {
     fm_method_desc chosen;
     const fm_workload workload = { .width_px = of->width_px,
@@ -70,7 +69,7 @@ static bool fits(const asked_choices *asked, const fm_layout_case *of,
     return true;
 }
 
-static const layout_rule *rule_for(const fm_method_desc *method, const fm_layout_device *device)
+static const layout_rule *rule_for(const fm_method_desc *method, const fm_auto_device *device)
 {
     const layout_rule *rule = rules;
     while (rule->is_software != device->is_software ||
@@ -80,8 +79,8 @@ static const layout_rule *rule_for(const fm_method_desc *method, const fm_layout
 }
 
 /* The first that the method has and the device takes; else whatever else the method has. */
-static void resolve(fm_choice *choice, const asked_choices *asked, const fm_layout_case *of,
-                    const fm_layout_device *device)
+static void resolve(fm_choice *choice, const asked_choices *asked, const fm_auto_case *of,
+                    const fm_auto_device *device)
 {
     const fm_option *option = option_find(of->method, choice->name);
     const layout_rule *rule = rule_for(of->method, device);
@@ -99,17 +98,17 @@ static void resolve(fm_choice *choice, const asked_choices *asked, const fm_layo
         }
 }
 
-void layout_resolve(fm_choice *choices, size_t count, const fm_layout_case *of,
-                    const fm_layout_device *device)
+void auto_resolve(fm_choice *choices, size_t count, const fm_auto_case *of,
+                  const fm_auto_device *device)
 {
     const asked_choices asked = { of->method, choices, count };
     for (size_t i = 0; i < count; i++)
-        if (layout_is_open(&choices[i]))
+        if (auto_is_open(&choices[i]))
             resolve(&choices[i], &asked, of, device);
 }
 
-size_t layout_choices(fm_choice all[FM_MAX_OPTIONS], const fm_choice *given, size_t given_count,
-                      const fm_layout_case *of, const fm_layout_device *device)
+size_t auto_choices(fm_choice all[FM_MAX_OPTIONS], const fm_choice *given, size_t given_count,
+                    const fm_auto_case *of, const fm_auto_device *device)
 {
     size_t count = 0;
     for (; count < FM_MAX_OPTIONS && of->method->options[count].name != NULL; count++) {
@@ -118,6 +117,6 @@ size_t layout_choices(fm_choice all[FM_MAX_OPTIONS], const fm_choice *given, siz
         snprintf(all[count].value, sizeof all[count].value, "%s",
                  option_chosen(of->method, name, given, given_count));
     }
-    layout_resolve(all, count, of, device);
+    auto_resolve(all, count, of, device);
     return count;
 }
