@@ -5,17 +5,26 @@
 
 #include "model/formula.h"
 
-/* Layouts from the fastest on, as measured: DECISIONS.md, 108. */
-typedef struct layout_rule {
-    bool is_software, is_bounded; /* of the device; of the method: FM_TRAIT_BOUNDED */
-    const char *order[4];
-} layout_rule;
+#define LAYOUT "layout"
+#define NODE   "node"
 
-static const layout_rule rules[] = {
-    { .is_software = false, .is_bounded = true, .order = { "image", "tile", "layer", "pixel" } },
-    { .is_software = false, .is_bounded = false, .order = { "tile", "layer", "pixel", "image" } },
-    { .is_software = true, .is_bounded = true, .order = { "tile", "pixel", "layer", "image" } },
-    { .is_software = true, .is_bounded = false, .order = { "tile", "pixel", "layer", "image" } },
+const fm_auto_option auto_options[AUTO_OPTION_COUNT] = { { LAYOUT, "" }, { NODE, "split" } };
+
+/* An option's values from the fastest on, as measured: DECISIONS.md, 108 and 110. The first rule of
+ * an option that is for the device and for the method counts. */
+typedef struct auto_rule {
+    const char *option;
+    bool is_software; /* the device */
+    uint32_t traits;  /* which the method has */
+    const char *order[4];
+} auto_rule;
+
+static const auto_rule rules[] = {
+    { LAYOUT, false, FM_TRAIT_BOUNDED, { "image", "tile", "layer", "pixel" } },
+    { LAYOUT, false, 0, { "tile", "layer", "pixel", "image" } },
+    { LAYOUT, true, 0, { "tile", "pixel", "layer", "image" } },
+    { NODE, false, 0, { "whole", "split" } },
+    { NODE, true, 0, { "split", "whole" } },
 };
 enum { ORDER_LENGTH = sizeof rules[0].order / sizeof rules[0].order[0] };
 
@@ -32,7 +41,10 @@ fm_auto_case auto_case(const fm_method_desc *method, const fm_settings *settings
 
 bool auto_is_open(const fm_choice *choice)
 {
-    return strcmp(choice->name, LAYOUT_OPTION) == 0 && strcmp(choice->value, LAYOUT_AUTO) == 0;
+    for (size_t i = 0; i < AUTO_OPTION_COUNT; i++)
+        if (strcmp(choice->name, auto_options[i].name) == 0)
+            return strcmp(choice->value, AUTO_VALUE) == 0;
+    return false;
 }
 
 /* What formulas ask: the workload's runner. */
@@ -69,12 +81,13 @@ static bool fits(const asked_choices *asked, const fm_auto_case *of, const fm_au
     return true;
 }
 
-static const layout_rule *rule_for(const fm_method_desc *method, const fm_auto_device *device)
+static const auto_rule *rule_for(const char *option, const fm_method_desc *method,
+                                 const fm_auto_device *device)
 {
-    const layout_rule *rule = rules;
-    while (rule->is_software != device->is_software ||
-           rule->is_bounded != ((method->traits & FM_TRAIT_BOUNDED) != 0))
-        rule++; /* there is one for each pair */
+    const auto_rule *rule = rules;
+    while (strcmp(rule->option, option) != 0 || rule->is_software != device->is_software ||
+           (method->traits & rule->traits) != rule->traits)
+        rule++; /* each option has one without traits for both kinds of devices */
     return rule;
 }
 
@@ -83,8 +96,8 @@ static void resolve(fm_choice *choice, const asked_choices *asked, const fm_auto
                     const fm_auto_device *device)
 {
     const fm_option *option = option_find(of->method, choice->name);
-    const layout_rule *rule = rule_for(of->method, device);
-    for (size_t i = 0; i < ORDER_LENGTH; i++) {
+    const auto_rule *rule = rule_for(choice->name, of->method, device);
+    for (size_t i = 0; i < ORDER_LENGTH && rule->order[i] != NULL; i++) {
         if (!option_has_value(option, rule->order[i]))
             continue;
         snprintf(choice->value, sizeof choice->value, "%s", rule->order[i]);
@@ -92,7 +105,7 @@ static void resolve(fm_choice *choice, const asked_choices *asked, const fm_auto
             return;
     }
     for (size_t i = 0; i < FM_MAX_OPTION_VALUES && option->values[i] != NULL; i++)
-        if (strcmp(option->values[i], LAYOUT_AUTO) != 0) {
+        if (strcmp(option->values[i], AUTO_VALUE) != 0) {
             snprintf(choice->value, sizeof choice->value, "%s", option->values[i]);
             return;
         }

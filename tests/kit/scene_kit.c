@@ -200,17 +200,20 @@ bool kit_has_ties(const fm_truth *truth)
     return false;
 }
 
-void kit_layout_in_turn(char texts[96], const char *given, const fm_method_desc *method,
+void kit_memory_in_turn(char texts[96], const char *given, const fm_method_desc *method,
                         size_t number)
 {
-    const fm_option *layout = option_find(method, LAYOUT_OPTION);
-    size_t count = 0;
-    while (layout != NULL && count < FM_MAX_OPTION_VALUES && layout->values[count] != NULL)
-        count++;
-    if (count == 0)
-        snprintf(texts, 96, "%s", given);
-    else
-        snprintf(texts, 96, "%s " LAYOUT_OPTION "=%s", given, layout->values[number % count]);
+    int length = snprintf(texts, 96, "%s", given);
+    for (size_t i = 0; i < AUTO_OPTION_COUNT; i++) {
+        const fm_option *option = option_find(method, auto_options[i].name);
+        size_t count = 0;
+        while (option != NULL && count < FM_MAX_OPTION_VALUES && option->values[count] != NULL)
+            count++;
+        if (count > 0)
+            length += snprintf(texts + length, 96 - (size_t)length, " %s=%s", option->name,
+                               option->values[number % count]);
+        assert_true(length < 96);
+    }
 }
 
 void kit_tell(char text[256], const kit_way *way)

@@ -1,4 +1,4 @@
-/* Resources by option, and what layout=auto is on a device. */
+/* Resources by option, and what `auto` of an option is on a device. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -147,6 +147,32 @@ static void a_layout_that_was_chosen_stays(void **state)
     assert_false(auto_is_open(&choices[0]));
 }
 
+/* Whatever traits a method has. */
+static void a_list_has_whole_nodes_on_a_gpu(void **state)
+{
+    (void)state;
+    for (uint32_t traits = 0; traits <= FM_TRAIT_BOUNDED; traits += FM_TRAIT_BOUNDED) {
+        fm_method_desc method = make_method(traits);
+        method.options[0] = (fm_option){ .name = "node", .values = { "auto", "split", "whole" } };
+        assert_string_equal(resolved(&method, 8, &gpu), "whole");
+        assert_string_equal(resolved(&method, 8, &software), "split");
+        method.options[0].values[2] = NULL;
+        assert_string_equal(resolved(&method, 8, &gpu), "split");
+    }
+}
+
+/* start=auto, say, is what the method's shaders make of it. */
+static void auto_of_another_option_is_the_methods_own(void **state)
+{
+    (void)state;
+    fm_method_desc method = make_method(0);
+    method.options[0] = (fm_option){ .name = "start", .values = { "auto", "front" } };
+    assert_string_equal(resolved(&method, 8, &gpu), "auto");
+    assert_false(auto_is_open(&(fm_choice){ "start", "auto" }));
+    assert_true(auto_is_open(&(fm_choice){ "node", "auto" }));
+    assert_false(auto_is_open(&(fm_choice){ "node", "split" }));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -158,6 +184,8 @@ int main(void)
         cmocka_unit_test(a_shared_map_keeps_arrays_in_buffers),
         cmocka_unit_test(a_method_has_only_its_own_layouts),
         cmocka_unit_test(a_layout_that_was_chosen_stays),
+        cmocka_unit_test(a_list_has_whole_nodes_on_a_gpu),
+        cmocka_unit_test(auto_of_another_option_is_the_methods_own),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -93,12 +93,12 @@ static void an_open_layout_is_what_it_means_on_the_device(void **state)
     assert_string_equal(plan.cases[0].choices[0].value, "image");
     assert_string_equal(plan.cases[1].choices[0].value, "image");
     assert_string_equal(plan.cases[2].choices[0].value, "layer");
-    assert_true(plan.cases[0].has_auto_layout);
+    assert_int_equal(plan.cases[0].worked_out, 1u);
     snprintf(id, sizeof id, "%s", plan.cases[0].id);
     plan_free(&plan);
     expand_open(&plan, &open_layout, "layout=image", ask_gpu, &asked);
     assert_int_equal(asked, 0);
-    assert_false(plan.cases[0].has_auto_layout);
+    assert_int_equal(plan.cases[0].worked_out, 0u);
     assert_string_equal(plan.cases[0].id, id); /* k is 8 unless it is told */
     plan_free(&plan);
     expand_open(&plan, &usual, NULL, ask_gpu, &asked);
