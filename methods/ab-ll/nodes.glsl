@@ -1,6 +1,12 @@
 // Nodes by their links, for passes that have the pool.
 #include "ab-ll/node.glsl"
 
+#if NODES_WHOLE
+#define next_word(link) nodes[(link) - 1u].z
+#else
+#define next_word(link) nodes[(link) + 1u]
+#endif
+
 // A fragment, and the link to the next: what reads both reads them by this, so that a whole node is read once.
 uvec3 node_at(uint link)
 {
@@ -24,21 +30,15 @@ uvec2 fragment_of(uint link)
 }
 uint next_of(uint link)
 {
-#if NODES_WHOLE
-    return nodes[link - 1u].z;
-#else
-    return nodes[link + 1u];
-#endif
+    return next_word(link);
 }
 
 // No functions: passes that only read, or do not emit, could not have them.
 #define emit_node(pixel, node, rank) fm_emit(pixel, int(rank), uintBitsToFloat((node).x), (node).y)
 #if NODES_WHOLE
-#define set_next(link, next)           nodes[(link) - 1u].z = next
 #define set_fragment(link, fragment)   nodes[(link) - 1u].xy = fragment
 #define set_node(link, fragment, next) nodes[(link) - 1u] = uvec4(fragment, next, 0u)
 #else
-#define set_next(link, next) nodes[(link) + 1u] = next
 #define set_fragment(link, fragment)     \
     {                                    \
         nodes[(link) - 1u] = fragment.x; \
@@ -47,6 +47,7 @@ uint next_of(uint link)
 #define set_node(link, fragment, next) \
     {                                  \
         set_fragment(link, fragment);  \
-        set_next(link, next);          \
+        next_word(link) = next;        \
     }
 #endif
+#define set_next(link, next) next_word(link) = next

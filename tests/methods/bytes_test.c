@@ -117,6 +117,11 @@ static uint64_t sorted_list(const workload *w)
     return linked_list(w) + 20 * w->pixels;
 }
 
+static uint64_t sorted_list_of_whole_nodes(const workload *w)
+{
+    return list_of_whole_nodes(w) + (2 * 16 - 4) * w->pixels;
+}
+
 /* Eight heads and two bounds instead of a head. */
 static uint64_t bucketed_list(const workload *w)
 {
@@ -192,7 +197,8 @@ static const struct formula {
     { "kb-mdt64", k_buffer },
     { "mlab", locked_k_buffer },
     { "kb-multi", flagged_k_buffer },
-    { "kb-ll", sorted_list },
+    { "kb-ll node=split", sorted_list },
+    { "kb-ll node=whole", sorted_list_of_whole_nodes },
     { "kb-mdt32", k_buffer },
     { "loop32", k_buffer },
     { "loop64", k_buffer },
