@@ -7,11 +7,14 @@
 
 #define LAYOUT "layout"
 #define NODE   "node"
+#define PIXELS "per_pixel"
 
-const fm_auto_option auto_options[AUTO_OPTION_COUNT] = { { LAYOUT, "" }, { NODE, "split" } };
+const fm_auto_option auto_options[AUTO_OPTION_COUNT] = { { LAYOUT, "" },
+                                                         { NODE, "split" },
+                                                         { PIXELS, "rows" } };
 
-/* An option's values from the fastest on, as measured: DECISIONS.md, 108 and 110. The first rule of
- * an option that is for the device and for the method counts. */
+/* An option's values from the fastest on, as measured: DECISIONS.md, 108, 110 and 111. The first
+ * rule of an option that is for the device and for the method counts. */
 typedef struct auto_rule {
     const char *option;
     bool is_software; /* the device */
@@ -25,6 +28,8 @@ static const auto_rule rules[] = {
     { LAYOUT, true, 0, { "tile", "pixel", "layer", "image" } },
     { NODE, false, 0, { "whole", "split" } },
     { NODE, true, 0, { "split", "whole" } },
+    { PIXELS, false, 0, { "rows", "tiles", "images" } },
+    { PIXELS, true, 0, { "images", "rows", "tiles" } },
 };
 enum { ORDER_LENGTH = sizeof rules[0].order / sizeof rules[0].order[0] };
 

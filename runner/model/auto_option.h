@@ -1,4 +1,4 @@
-/* layout=auto, node=auto: which of the option's other values that is.
+/* layout=auto, node=auto, per_pixel=auto: which of the option's other values that is.
  *
  * Where and in what form a pixel's fragments lie decides much of a method's time, and what is
  * fastest differs between devices. So the value `auto` of some options (fragmark/method.h names
@@ -18,7 +18,7 @@ typedef struct fm_auto_option {
     const char *before; /* what its methods had before there was the option, to join their rows with
                            those of now; "": they always had it */
 } fm_auto_option;
-enum { AUTO_OPTION_COUNT = 2 };
+enum { AUTO_OPTION_COUNT = 3 };
 extern const fm_auto_option auto_options[AUTO_OPTION_COUNT];
 
 /* What it hangs on of a device. */

@@ -90,8 +90,9 @@ bool kit_measure_times(fm_measurement *measurement, kit_scene *scene, const kit_
 /* Sets the method up, resources and pipelines of the timed or the checked build, and runs nothing.
  */
 fm_status kit_build(kit_scene *scene, const kit_way *way, bool is_capture, fm_error *err);
-/* TEXTS with one of the values of the method's layout, or of its nodes, another one for each
- * number: "k=8 layout=tile". The texts alone where it has neither. */
+/* TEXTS with a value of each option whose `auto` is the runner's, another one for each number: "k=8
+ * layout=tile". These options say how fragments, or what is kept beside them, lie in memory, and
+ * change nothing that is handed over. */
 void kit_memory_in_turn(char texts[96], const char *given, const fm_method_desc *method,
                         size_t number);
 /* "kplus-array, compute-layer, k=8": for messages. */

@@ -161,6 +161,22 @@ static void a_list_has_whole_nodes_on_a_gpu(void **state)
     }
 }
 
+/* Images that the device lacks are not taken. */
+static void words_of_pixels_lie_in_images_on_software(void **state)
+{
+    (void)state;
+    fm_method_desc method = make_method(0);
+    fm_auto_device device = software;
+    method.options[0] =
+        (fm_option){ .name = "per_pixel", .values = { "auto", "tiles", "images", "rows" } };
+    method.resources[2].when_option = "per_pixel";
+    method.resources[2].when_value = "images";
+    assert_string_equal(resolved(&method, 8, &device), "images");
+    device.image_layers = 7;
+    assert_string_equal(resolved(&method, 8, &device), "rows");
+    assert_string_equal(resolved(&method, 8, &gpu), "rows");
+}
+
 /* start=auto, say, is what the method's shaders make of it. */
 static void auto_of_another_option_is_the_methods_own(void **state)
 {
@@ -185,6 +201,7 @@ int main(void)
         cmocka_unit_test(a_method_has_only_its_own_layouts),
         cmocka_unit_test(a_layout_that_was_chosen_stays),
         cmocka_unit_test(a_list_has_whole_nodes_on_a_gpu),
+        cmocka_unit_test(words_of_pixels_lie_in_images_on_software),
         cmocka_unit_test(auto_of_another_option_is_the_methods_own),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
