@@ -8,22 +8,27 @@ const fm_method_desc fm_method = {
     .id = "ab-ll",
     .title = "AB-LL",
     .citation = "Yang, Hensley, Gruen, Thibieroz 2010, doi:10.1111/j.1467-8659.2010.01725.x",
-    .version = "1",
+    .version = "2",
     .traits = FM_TRAIT_EXACT | FM_TRAIT_SORTS_IN_RESOLVE,
     .keeps = FM_KEEPS_ALL,
     .family = FM_FAMILY_LINKED_LIST,
     .marker = FM_MARKER_CIRCLE,
     .options = {
+        { .name = "node", .values = { "auto", "split", "whole" },
+          .help = "three words, or 16 bytes at once" },
         { .name = "sort", .values = { "shell", "registers", "blocks" },
           .help = "in resolve: in a private array, up to 32 in registers, or in blocks of 32" },
     },
     .resources = {
         { .name = "heads", .extent = { .per_pixel = 1 }, .used = { .per_pixel = 1 } },
-        { .name = "allocated", .extent = { .constant = 2 } }, /* words taken; words without room */
+        { .name = "allocated", .extent = { .constant = 2 } }, /* elements taken; those without room */
         { .name = "nodes", .extent = { .per_pixel = NODE_WORDS * NODES_PER_PIXEL },
           .sizing = FM_SIZE_GROW, .overflow = "overflow",
           .grown = { .per_fragment = NODE_WORDS }, /* a node a fragment */
           .used = { .per_fragment = NODE_WORDS } },
+        { .name = "nodes", .element = FM_ELEMENT_UVEC4, .extent = { .per_pixel = NODES_PER_PIXEL },
+          .sizing = FM_SIZE_GROW, .overflow = "overflow", .grown = { .per_fragment = 1 },
+          .used = { .per_fragment = 1 }, .when_option = "node", .when_value = "whole" },
     },
     .totals = { { .name = "overflow", .resource = "allocated", .index = 1, .pass = "store" } },
     .passes = {

@@ -13,5 +13,5 @@ void push(uint list, float depth, uint colour)
     uint link = node + 1u;
     // Fragments of a list collide; each exchange links one node in front. No one walks the list yet.
     uint next = atomicExchange(heads[list], link);
-    set_node(link, fragment, next)
+    set_node(link, fragment, next);
 }

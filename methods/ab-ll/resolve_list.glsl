@@ -10,7 +10,7 @@ uvec2 fragment_at(uvec2 pixel, uint link)
 }
 void put_fragment(uvec2 pixel, uint link, uvec2 fragment)
 {
-    set_fragment(link, fragment)
+    set_fragment(link, fragment);
 }
 uint next_cursor(uint link)
 {
@@ -34,8 +34,9 @@ uint resolve_list(uvec2 pixel, uint list, uint rank)
     uint link = sort_links(heads[list]);
     heads[list] = link; // another band of the check walks the list again
     FM_LOOP while (link != END_OF_LIST) {
-        emit_node(pixel, link, rank++);
-        link = next_of(link);
+        uvec3 node = node_at(link);
+        emit_node(pixel, node, rank++);
+        link = node.z;
     }
     return rank;
 }
@@ -48,8 +49,9 @@ uint resolve_list(uvec2 pixel, uint list, uint rank)
     uint link = heads[list];
     uint count = 0u;
     FM_LOOP while (link != END_OF_LIST && count < N) {
-        sorted[count++] = fragment_of(link);
-        link = next_of(link);
+        uvec3 node = node_at(link);
+        sorted[count++] = node.xy;
+        link = node.z;
     }
     sort_fragments(count);
     FM_LOOP for (uint i = 0u; i < count; ++i)

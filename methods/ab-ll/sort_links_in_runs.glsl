@@ -22,8 +22,9 @@ uvec2 first_dealt, last_dealt; // with a 0 and with a 1
 // The node goes behind its list; returns the one that came after it.
 uint deal_node(uint link, uint bit)
 {
-    bool is_one = (depth_bits_of(link) >> bit & 1u) != 0u;
-    uint last = is_one ? last_dealt.y : last_dealt.x, next = next_of(link);
+    uvec3 node = node_at(link);
+    bool is_one = (node.x >> bit & 1u) != 0u;
+    uint last = is_one ? last_dealt.y : last_dealt.x, next = node.z;
     if (last != END_OF_LIST)
         set_next(last, link);
     else
@@ -48,8 +49,9 @@ uint deal_list(uint link, uint bit)
 
 uint emit_and_next(uvec2 pixel, uint link, uint rank)
 {
-    emit_node(pixel, link, rank);
-    return next_of(link);
+    uvec3 node = node_at(link);
+    emit_node(pixel, node, rank);
+    return node.z;
 }
 
 // The runs sort, and the last one emits, from `rank` on; the rank behind the last.

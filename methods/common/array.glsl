@@ -11,15 +11,14 @@
 #define ARRAY_IS_IMAGE 0
 #endif
 #ifndef OWN_ARRAY_SLOT
+#include "common/tiles.glsl"
 uint array_slot(uvec2 pixel, uint i, uint length)
 {
 #if LAYOUT == LAYOUT_LAYER
     return i * uint(FM_PIXELS) + fm_pixel_index(pixel);
 #elif defined(LAYOUT_TILE) && LAYOUT == LAYOUT_TILE
-    uvec2 corner = pixel & ~7u, within = pixel - corner;
-    uvec2 size = min(uvec2(FM_WIDTH, FM_HEIGHT) - corner, uvec2(8u));
-    uint pixels_before = corner.y * uint(FM_WIDTH) + corner.x * size.y;
-    return pixels_before * length + i * size.x * size.y + within.y * size.x + within.x;
+    uvec3 place = tile_place(pixel);
+    return place.x * length + i * place.y + place.z;
 #else
     return fm_pixel_index(pixel) * length + i;
 #endif

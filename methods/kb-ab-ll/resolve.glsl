@@ -15,8 +15,9 @@ void resolve(uvec2 pixel)
     uint link = heads[fm_pixel_index(pixel)];
     select_none();
     FM_LOOP for (uint count = 0u; link != END_OF_LIST && count < N; ++count) {
-        select_nearest(fragment_of(link));
-        link = next_of(link);
+        uvec3 node = node_at(link);
+        link = node.z;
+        select_nearest(node.xy);
     }
     emit_selected(pixel);
 }

@@ -1,9 +1,7 @@
-// A node is three words: depth bits, colour, next; a link is the node's first word. Each pixel has two
-// sentinels: a head before all fragments and a tail behind them.
-const uint NODE_WORDS = 3u;
-const uint DEPTH = 0u, COLOUR = 1u, NEXT = 2u;
+// Nodes as AB-LL has them. Each pixel has two sentinels, a head before all fragments and a tail behind them.
+#include "ab-ll/nodes.glsl"
 
 uint head_of(uvec2 pixel)
 {
-    return 2u * NODE_WORDS * fm_pixel_index(pixel);
+    return 2u * NODE_STEP * fm_pixel_index(pixel) + 1u;
 }

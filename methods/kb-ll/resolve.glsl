@@ -2,9 +2,9 @@
 
 void resolve(uvec2 pixel)
 {
-    uint node = nodes[head_of(pixel) + NEXT];
-    FM_LOOP for (uint i = 0u; i < K && nodes[node + DEPTH] != FM_EMPTY_BITS; ++i) { // in order
-        fm_emit(pixel, int(i), uintBitsToFloat(nodes[node + DEPTH]), nodes[node + COLOUR]);
-        node = nodes[node + NEXT];
+    uvec3 node = node_at(next_of(head_of(pixel)));
+    FM_LOOP for (uint i = 0u; i < K && node.x != FM_EMPTY_BITS; ++i) { // in order
+        emit_node(pixel, node, i);
+        node = node_at(node.z);
     }
 }

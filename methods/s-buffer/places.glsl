@@ -1,3 +1,4 @@
+#include "s-buffer/per_pixel.glsl"
 #include "s-buffer/place.glsl"
 
 // The store left the address behind the pixel's last fragment: the i-th counts back from there. Where that
@@ -6,7 +7,7 @@ uint last_place;
 
 void find_places(uvec2 pixel, uint count)
 {
-    last_place = count > 0u ? bin_place(pixel, addresses[fm_pixel_index(pixel)] - 1u) : 0u;
+    last_place = count > 0u ? bin_place(pixel, address_of(pixel) - 1u) : 0u;
 }
 uint place_of(uvec2 pixel, uint i)
 {

@@ -3,7 +3,7 @@
 
 void resolve(uvec2 pixel)
 {
-    uint count = min(counters[fm_pixel_index(pixel)], N);
+    uint count = min(count_of(pixel), N);
     find_places(pixel, count);
     resolve_all(pixel, count);
 }

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/text_index.h"
-#include "model/layout.h"
+#include "model/auto_option.h"
 #include "read/options.h"
 #include "read/workload.h"
 
@@ -19,16 +19,19 @@ typedef struct joiner {
 
 void join_add_name(fm_text *name, const fm_case_row *row)
 {
-    char workload[WORKLOAD_KEY_BYTES], kept[FM_OPTIONS_TEXT_BYTES], layout[FM_OPTION_VALUE_BYTES];
+    char workload[WORKLOAD_KEY_BYTES], kept[FM_OPTIONS_TEXT_BYTES];
     const char *options = row->options;
     workload_key(workload, row, NULL);
     if (strlen(options) < sizeof kept) {
         options_drop(kept, options, row->look.defaults);
         options = kept;
     }
-    options_value(layout, row->options, LAYOUT_OPTION);
-    text_add(name, "%s%s|%.17g|%s|%s", row->method, workload, isnan(row->k) ? 0.0 : row->k, options,
-             layout);
+    text_add(name, "%s%s|%.17g|%s", row->method, workload, isnan(row->k) ? 0.0 : row->k, options);
+    for (size_t i = 0; i < AUTO_OPTION_COUNT; i++) { /* whose defaults differ between devices */
+        char value[FM_OPTION_VALUE_BYTES];
+        options_value(value, row->options, auto_options[i].name);
+        text_add(name, "|%s", value[0] != '\0' ? value : auto_options[i].before);
+    }
 }
 
 static bool agrees(double a, double b)

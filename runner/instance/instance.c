@@ -89,13 +89,13 @@ static void name_slots(fm_instance *instance)
 size_t instance_choices(fm_choice all[FM_MAX_OPTIONS], const fm_instance_desc *desc)
 {
     const fm_device_caps *caps = &desc->stage->device->caps;
-    fm_layout_case of = layout_case(desc->method, desc->settings, desc->stage->n);
+    fm_auto_case of = auto_case(desc->method, desc->settings, desc->stage->n);
     of.width_px = desc->stage->scene->width_px; /* as it is, whatever settings say */
     of.height_px = desc->stage->scene->height_px;
-    const fm_layout_device device = { .is_software = caps->is_software,
-                                      .image_layers = caps->image_layers,
-                                      .image_max_bytes = caps->image_max_bytes };
-    return layout_choices(all, desc->choices, desc->choice_count, &of, &device);
+    const fm_auto_device device = { .is_software = caps->is_software,
+                                    .image_layers = caps->image_layers,
+                                    .image_max_bytes = caps->image_max_bytes };
+    return auto_choices(all, desc->choices, desc->choice_count, &of, &device);
 }
 
 static void choose(fm_instance *instance, const fm_instance_desc *desc)

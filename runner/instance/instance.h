@@ -7,7 +7,7 @@
 #ifndef FM_INSTANCE_H
 #define FM_INSTANCE_H
 
-#include "model/layout.h"
+#include "model/auto_option.h"
 #include "plugin/hook_mark.h"
 #include "stage/stage.h"
 
@@ -63,8 +63,8 @@ typedef struct fm_accesses {
 /* Of all passes together: their sum, or the span. */
 uint64_t frame_passes_ns(const fm_frame_result *result);
 
-/* All options of the method with their values: what is missing is at its default, and layout=auto
- * is worked out for the stage's device. Returns their number. What is done to the method before
+/* All options of the method with their values: what is missing is at its default, and `auto` is
+ * worked out for the stage's device. Returns their number. What is done to the method before
  * instance_create has to know them. Of the descriptor stage, method, settings and choices count. */
 size_t instance_choices(fm_choice all[FM_MAX_OPTIONS], const fm_instance_desc *desc);
 

@@ -55,18 +55,22 @@ static json_t *devices_json(const fm_results *results)
     return devices;
 }
 
-/* What layout=auto was worked out to, which may differ between cases. */
-static void add_auto_layouts(fm_text *text, const fm_plan *plan, const fm_method_desc *method)
+/* What `auto` was worked out to, which may differ between cases. */
+static void add_worked_out(fm_text *text, const fm_plan *plan, const fm_method_desc *method)
 {
-    char pair[sizeof((fm_choice *)NULL)->value + 16];
+    char pair[sizeof(fm_choice) + 3];
     for (size_t i = 0; plan != NULL && i < plan->count; i++) {
         const fm_case *planned = &plan->cases[i];
-        if (!planned->has_auto_layout || strcmp(planned->method, method->id) != 0)
+        if (strcmp(planned->method, method->id) != 0)
             continue;
-        snprintf(pair, sizeof pair, " " LAYOUT_OPTION "=%s",
-                 option_chosen(method, LAYOUT_OPTION, planned->choices, planned->choice_count));
-        if (strstr(text->bytes, pair) == NULL)
-            text_add(text, "%s", pair);
+        for (size_t j = 0; j < planned->choice_count; j++) {
+            if ((planned->worked_out & 1u << j) == 0)
+                continue;
+            snprintf(pair, sizeof pair, " %s=%s", planned->choices[j].name,
+                     planned->choices[j].value);
+            if (strstr(text->bytes, pair) == NULL)
+                text_add(text, "%s", pair);
+        }
     }
 }
 
@@ -79,7 +83,7 @@ static json_t *defaults_json(const fm_method_desc *method, const fm_plan *plan)
         text_add(&text, "%s%s=%s", i > 0 ? " " : "", method->options[i].name,
                  method->options[i].values[0]);
     if (text.bytes != NULL)
-        add_auto_layouts(&text, plan, method);
+        add_worked_out(&text, plan, method);
     json_t *json = json_string(text.bytes != NULL ? text.bytes : "");
     text_free(&text);
     return json;

@@ -145,7 +145,7 @@ fm_status mesh_look(fm_mesh_look *found, FILE *talk, const fm_plan *plan, const 
     return status;
 }
 
-static fm_status take_device(fm_layout_device *found, const look *state, const char *name,
+static fm_status take_device(fm_auto_device *found, const look *state, const char *name,
                              const json_t *answer)
 {
     fm_answer_device device;
@@ -153,13 +153,13 @@ static fm_status take_device(fm_layout_device *found, const look *state, const c
         return fm_fail(state->err, FM_IO, "device '%s': interrupted", name);
     if (!answer_device(&device, answer))
         return fm_fail(state->err, FM_IO, "%s", answer_message(answer));
-    *found = (fm_layout_device){ .is_software = device.is_software,
-                                 .image_layers = device.image_layers,
-                                 .image_max_bytes = device.image_max_bytes };
+    *found = (fm_auto_device){ .is_software = device.is_software,
+                               .image_layers = device.image_layers,
+                               .image_max_bytes = device.image_max_bytes };
     return FM_OK;
 }
 
-static fm_status ask_device(fm_layout_device *found, look *state, const char *name)
+static fm_status ask_device(fm_auto_device *found, look *state, const char *name)
 {
     fm_settings settings;
     fm_launch_outcome outcome;
@@ -180,8 +180,7 @@ static fm_status ask_device(fm_layout_device *found, look *state, const char *na
     return status;
 }
 
-fm_status device_look(fm_layout_device *found, const void *worker, const char *device,
-                      fm_error *err)
+fm_status device_look(fm_auto_device *found, const void *worker, const char *device, fm_error *err)
 {
     look state = { .worker = worker, .err = err };
     fm_status status = make_files(&state);

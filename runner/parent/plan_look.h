@@ -23,7 +23,6 @@ fm_status mesh_look(fm_mesh_look *found, FILE *talk, const fm_plan *plan, const 
 /* As fm_plan_request.ask: has a worker open the device. `worker`: the executable, a const char *;
  * NULL: this program. FM_IO: it cannot be opened, with the reason, or no worker could be started.
  */
-fm_status device_look(fm_layout_device *found, const void *worker, const char *device,
-                      fm_error *err);
+fm_status device_look(fm_auto_device *found, const void *worker, const char *device, fm_error *err);
 
 #endif

@@ -12,8 +12,8 @@
 #include "base/text.h"
 #include "base/text_index.h"
 #include "device/registry.h"
+#include "model/auto_option.h"
 #include "model/descriptor.h"
-#include "model/layout.h"
 #include "model/outcome.h"
 #include "model/settings.h"
 #include "plugin/plugin.h"
@@ -30,7 +30,7 @@ typedef struct fm_case {
     fm_settings settings;
     uint64_t given[FM_MAX_KEYS / 64]; /* bit i: an axis sets fm_keys[i], not the scene */
     fm_choice *choices;               /* [choice_count]: of each option its value, that of the
-                                         descriptor if no axis sets it, and for layout=auto what it
+                                         descriptor if no axis sets it, and for `auto` what it
                                          means on the device; owned by the plan */
     size_t choice_count;
     char *skip;                 /* why it is not launched; owned by the plan; NULL: it is */
@@ -39,7 +39,7 @@ typedef struct fm_case {
                                    that cannot be read), or FM_CASE_PLUGIN_ERROR (it was refused) */
     fm_reason skip_reason;      /* with FM_CASE_NOT_SUPPORTED its word; else FM_REASON_NONE */
     bool is_unread;             /* it is skipped because its scene's file cannot be read */
-    bool has_auto_layout;       /* its layout was left to the runner (model/layout.h) */
+    uint32_t worked_out;        /* bit i: choices[i] was left to the runner (model/auto_option.h) */
     bool no_image;              /* its picture is not kept; no part of its id */
 } fm_case;
 
@@ -57,10 +57,9 @@ typedef struct fm_plan_request {
     const char *const *axes; /* "KEY=VALUE[,VALUE...]", "KEY=LOW:HIGH:*FACTOR|+STEP"; KEY is one of
                                 fm_keys, an option of a chosen method, or method, scene, device
                                 or feed, which add to the lists above */
-    /* What a device is, as far as layout=auto hangs on it; asked once a device, and only where a
-     * case has that layout. NULL, or an error, which the plan keeps: such cases have `auto`. */
-    fm_status (*ask)(fm_layout_device *device, const void *context, const char *name,
-                     fm_error *err);
+    /* What a device is, as far as `auto` of an option hangs on it; asked once a device, and only
+     * where a case has that. NULL, or an error, which the plan keeps: such cases have `auto`. */
+    fm_status (*ask)(fm_auto_device *device, const void *context, const char *name, fm_error *err);
     const void *context;
 } fm_plan_request;
 
@@ -83,7 +82,7 @@ typedef struct fm_plan {
     uint32_t launches;       /* the most of any case */
     uint32_t frames, warmup; /* the same */
     fm_error unknown;        /* why a device could not be asked; FM_OK: none had to be, or all
-                                answered. Else cases have `auto` for a layout: none may be run */
+                                answered. Else cases have `auto` for an option: none may be run */
     fm_shard shard;
 } fm_plan;
 

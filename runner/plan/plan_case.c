@@ -162,13 +162,13 @@ static bool know_device(const fm_plan_point *point)
     return memo->error.status == FM_OK;
 }
 
-static void work_out_layout(fm_case *made, const fm_plan_point *point)
+static void work_out_options(fm_case *made, const fm_plan_point *point)
 {
-    const fm_layout_case of = layout_case(point->entry->plugin->method, &made->settings, 0);
+    const fm_auto_case of = auto_case(point->entry->plugin->method, &made->settings, 0);
     for (size_t i = 0; i < made->choice_count; i++)
-        made->has_auto_layout |= layout_is_open(&made->choices[i]);
-    if (made->has_auto_layout && know_device(point))
-        layout_resolve(made->choices, made->choice_count, &of, &point->device_memo->device);
+        made->worked_out |= (uint32_t)auto_is_open(&made->choices[i]) << i;
+    if (made->worked_out != 0 && know_device(point))
+        auto_resolve(made->choices, made->choice_count, &of, &point->device_memo->device);
 }
 
 static void list_names(fm_text *why, const char *const *names, size_t count)
@@ -365,7 +365,7 @@ static fm_status make_case(fm_case *made, const fm_plan_point *point, fm_error *
     if (point->entry->plugin != NULL)
         status = make_choices(made, point, point->entry->plugin->method, err);
     if (status == FM_OK && made->choice_count > 0)
-        work_out_layout(made, point);
+        work_out_options(made, point);
     if (settings_file(&made->settings) != NULL)
         remember_mesh(point->memo, settings_file(&made->settings));
     if (status == FM_OK)

@@ -16,7 +16,7 @@ typedef struct fm_mesh_memo {
 typedef struct fm_device_memo {
     const fm_plan_request *request; /* with whom to ask */
     bool was_asked;
-    fm_layout_device device;
+    fm_auto_device device;
     fm_error error; /* status FM_OK: the device is known */
 } fm_device_memo;
 

@@ -243,10 +243,19 @@ fm_status check_multisampled(const fm_checked_method *check, fm_error *err)
     return fm_fail(err, FM_INVALID, "traits: multisampled, but no image has samples");
 }
 
-/* What a stand-in and the resource that it replaces have to be. */
-static bool is_plain(const fm_resource *r)
+/* Whether the same sizes both. The one that is replaced may not have been checked. */
+static bool are_sized_alike(const fm_resource *r, const fm_resource *replaced)
 {
-    return r->sizing == FM_SIZE_FIXED && r->shares == NULL && !r->ping_pong;
+    if (r->sizing != replaced->sizing || r->sizing == FM_SIZE_AFTER_TOTAL)
+        return false;
+    return r->sizing == FM_SIZE_FIXED ||
+           (replaced->overflow != NULL && strcmp(r->overflow, replaced->overflow) == 0);
+}
+
+/* Of a stand-in or of what it replaces. */
+static bool is_alone(const fm_resource *r)
+{
+    return r->shares == NULL && !r->ping_pong;
 }
 
 static fm_status check_condition_names(const fm_checked_method *check, const fm_resource *r,
@@ -288,10 +297,10 @@ static fm_status check_condition(const fm_checked_method *check, const fm_resour
         return fm_fail(err, FM_INVALID,
                        "when_option: no resource of this name without a condition, which it "
                        "replaces");
-    if (!is_plain(r) || !is_plain(replaced))
+    if (!are_sized_alike(r, replaced) || !is_alone(r) || !is_alone(replaced))
         return fm_fail(err, FM_INVALID,
-                       "when_option: it and what it replaces need a fixed size, memory of their "
-                       "own, and one copy");
+                       "when_option: it and what it replaces need a fixed size or one overflow, "
+                       "memory of their own, and one copy");
     return FM_OK;
 }
 

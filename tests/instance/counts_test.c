@@ -57,7 +57,9 @@ static void expect_rows(fm_device *device, const char *texts, const expected *ro
  * ab-ll. clear: head (4) and both counters (8). store: an atomic on the pool (4 and 4), depth,
  * colour (8), an atomic on the head (4 and 4), the link (4). resolve: the head (4), and three words
  * of each of two nodes (24). The pool grows in the first try of the frame; the last is counted.
- *   loaded   2 (4 + 4) + 28 = 44             stored   12 + 2 (4 + 8 + 4 + 4) = 52 */
+ *   loaded   2 (4 + 4) + 28 = 44             stored   12 + 2 (4 + 8 + 4 + 4) = 52
+ * With node=whole a node is stored, and loaded, at once (16).
+ *   loaded   2 (4 + 4) + 4 + 2 x 16 = 52     stored   12 + 2 (4 + 4 + 16) = 60 */
 static void one_pixel_of_two_layers_is_as_by_hand(void **state)
 {
     static const expected rows[] = {
@@ -67,7 +69,8 @@ static void one_pixel_of_two_layers_is_as_by_hand(void **state)
         { "kplus-array", "k=2 lock=spin buffers=address", 60, 52, 2 },
         { "ab-array", "", 28, 28, 2 },
         { "ab-array", "buffers=address", 28, 28, 2 },
-        { "ab-ll", "", 44, 52, 4 },
+        { "ab-ll", "node=split", 44, 52, 4 },
+        { "ab-ll", "node=whole", 52, 60, 4 },
     };
     expect_rows(device_of(state), "width_px=1 height_px=1 n=2 pixel_density=1 order=ascending",
                 rows, sizeof rows / sizeof rows[0]);
@@ -79,7 +82,8 @@ static void two_pixels_are_twice_one(void **state)
     static const expected rows[] = {
         { "kplus-array", "k=2 lock=spin", 120, 104, 4 },
         { "ab-array", "", 56, 56, 4 },
-        { "ab-ll", "", 88, 96, 8 },
+        { "ab-ll", "node=split", 88, 96, 8 },
+        { "ab-ll", "node=whole", 104, 112, 8 },
     };
     expect_rows(device_of(state), "width_px=2 height_px=1 n=2 pixel_density=1 order=ascending",
                 rows, sizeof rows / sizeof rows[0]);

@@ -292,10 +292,10 @@ static void a_late_total_runs_the_frame_again_that_it_had_no_room_in(void **stat
     }
 }
 
-static void expect_redone(kit_scene *scene, const char *method, uint64_t frames)
+static void expect_redone(kit_scene *scene, const char *method, const char *texts, uint64_t frames)
 {
     fm_measurement m;
-    assert_true(kit_measure(&m, scene, &(kit_way){ method, FM_FEED_RASTER, "" }));
+    assert_true(kit_measure(&m, scene, &(kit_way){ method, FM_FEED_RASTER, texts }));
     assert_int_equal(m.frames_redone, frames);
     assert_int_equal(m.redone_ns > 0, frames > 0);
     measurement_free(&m);
@@ -309,8 +309,9 @@ static void frames_thrown_away_are_counted_and_timed(void **state)
     kit_scene scene;
     kit_open(&kit, device_of(state));
     kit_scene_open(&scene, &kit, "width_px=16 height_px=16 n=9 pixel_density=1");
-    expect_redone(&scene, "ab-ll", 2);
-    expect_redone(&scene, "ab-array", 0);
+    expect_redone(&scene, "ab-ll", "node=split", 2);
+    expect_redone(&scene, "ab-ll", "node=whole", 2);
+    expect_redone(&scene, "ab-array", "", 0);
     kit_scene_close(&scene);
     kit_close(&kit);
 }

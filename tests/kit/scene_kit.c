@@ -200,22 +200,27 @@ bool kit_has_ties(const fm_truth *truth)
     return false;
 }
 
-void kit_layout_in_turn(char texts[96], const char *given, const fm_method_desc *method,
+/* One value of an option, if the method has it, behind the texts. */
+static void add_in_turn(char texts[96], const fm_method_desc *method, const char *name,
                         size_t number)
 {
-    static const char *const names[] = { LAYOUT_OPTION, "count_in" };
-    size_t used = (size_t)snprintf(texts, 96, "%s", given);
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
-        const fm_option *option = option_find(method, names[i]);
-        size_t count = 0;
-        while (option != NULL && count < FM_MAX_OPTION_VALUES && option->values[count] != NULL)
-            count++;
-        if (count == 0)
-            continue;
-        used += (size_t)snprintf(texts + used, 96 - used, " %s=%s", names[i],
-                                 option->values[number % count]);
-        number /= count;
-    }
+    const fm_option *option = option_find(method, name);
+    const size_t used = strlen(texts);
+    size_t count = 0;
+    while (option != NULL && count < FM_MAX_OPTION_VALUES && option->values[count] != NULL)
+        count++;
+    if (count > 0)
+        assert_true((size_t)snprintf(texts + used, 96 - used, " %s=%s", name,
+                                     option->values[number % count]) < 96 - used);
+}
+
+void kit_memory_in_turn(char texts[96], const char *given, const fm_method_desc *method,
+                        size_t number)
+{
+    snprintf(texts, 96, "%s", given);
+    for (size_t i = 0; i < AUTO_OPTION_COUNT; i++)
+        add_in_turn(texts, method, auto_options[i].name, number);
+    add_in_turn(texts, method, "count_in", number);
 }
 
 void kit_tell(char text[256], const kit_way *way)

@@ -90,9 +90,10 @@ bool kit_measure_times(fm_measurement *measurement, kit_scene *scene, const kit_
 /* Sets the method up, resources and pipelines of the timed or the checked build, and runs nothing.
  */
 fm_status kit_build(kit_scene *scene, const kit_way *way, bool is_capture, fm_error *err);
-/* TEXTS with one of the layouts that the method has, and one of the places of its counts, others for
- * each number: "k=8 layout=tile count_in=own". The texts alone where it has none. */
-void kit_layout_in_turn(char texts[96], const char *given, const fm_method_desc *method,
+/* TEXTS with a value of each option whose `auto` is the runner's, and of count_in, others for each
+ * number: "k=8 layout=tile". These options say how fragments, or what is kept beside them, lie in memory, and
+ * change nothing that is handed over. */
+void kit_memory_in_turn(char texts[96], const char *given, const fm_method_desc *method,
                         size_t number);
 /* "kplus-array, compute-layer, k=8": for messages. */
 void kit_tell(char text[256], const kit_way *way);

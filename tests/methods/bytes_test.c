@@ -104,16 +104,33 @@ static uint64_t linked_list(const workload *w)
     return 4 * w->pixels + 12 * nodes + 8;
 }
 
+/* Its nodes have a word that holds nothing. */
+static uint64_t list_of_whole_nodes(const workload *w)
+{
+    const uint64_t nodes = w->fragments > w->pixels ? w->fragments : w->pixels;
+    return 4 * w->pixels + 16 * nodes + 8;
+}
+
 /* As linked_list, with two nodes a pixel more instead of a head. */
 static uint64_t sorted_list(const workload *w)
 {
     return linked_list(w) + 20 * w->pixels;
 }
 
+static uint64_t sorted_list_of_whole_nodes(const workload *w)
+{
+    return list_of_whole_nodes(w) + (2 * 16 - 4) * w->pixels;
+}
+
 /* Eight heads and two bounds instead of a head. */
 static uint64_t bucketed_list(const workload *w)
 {
     return linked_list(w) + (8 * 4 + 2 * 4 - 4) * w->pixels;
+}
+
+static uint64_t buckets_of_whole_nodes(const workload *w)
+{
+    return list_of_whole_nodes(w) + (8 * 4 + 2 * 4 - 4) * w->pixels;
 }
 
 /* Head, counter and lock; a page is four fragments and a link. */
@@ -166,7 +183,7 @@ static uint64_t freepipe(const workload *w)
 }
 
 static const struct formula {
-    const char *method;
+    const char *method; /* and its options, if the bytes hang on them */
     uint64_t (*bytes)(const workload *);
 } formulas[] = {
     { "kplus-array", kplus },
@@ -180,21 +197,24 @@ static const struct formula {
     { "kb-mdt64", k_buffer },
     { "mlab", locked_k_buffer },
     { "kb-multi", flagged_k_buffer },
-    { "kb-ll", sorted_list },
+    { "kb-ll node=split", sorted_list },
+    { "kb-ll node=whole", sorted_list_of_whole_nodes },
     { "kb-mdt32", k_buffer },
     { "loop32", k_buffer },
     { "loop64", k_buffer },
     { "kb-ps", locked_k_buffer },
     { "ab-array", a_buffer },
     { "z-buffer", z_buffer },
-    { "ab-ll", linked_list },
+    { "ab-ll node=split", linked_list },
+    { "ab-ll node=whole", list_of_whole_nodes },
     { "f2b", peeling },
     { "f2b-k", peeling },
     { "dual", dual_peeling },
     { "wboit", weighted },
     { "kb-sr", routed },
     { "kb-sr-counter", counted },
-    { "ab-ll-bucket", bucketed_list },
+    { "ab-ll-bucket node=split", bucketed_list },
+    { "ab-ll-bucket node=whole", buckets_of_whole_nodes },
     { "ab-ll-paged", paged_list },
     { "precalc-fixed", addressed_a_buffer },
     { "precalc-scan", scanned },
@@ -202,19 +222,19 @@ static const struct formula {
     { "s-buffer", s_buffer },
     { "freepipe-compute", freepipe },
     { "kb-ab-array", a_buffer },
-    { "kb-ab-ll", linked_list },
+    { "kb-ab-ll node=split", linked_list },
+    { "kb-ab-ll node=whole", list_of_whole_nodes },
     { "kb-ab-sb", s_buffer },
     { "kplus-sb", kplus_in_s_buffer },
 };
 
-static void expect_formula(const char *method, const workload *w, const fm_measurement *m)
+static void expect_formula(const struct formula *formula, const workload *w,
+                           const fm_measurement *m)
 {
-    for (size_t i = 0; i < sizeof formulas / sizeof formulas[0]; i++)
-        if (strcmp(formulas[i].method, method) == 0 && formulas[i].bytes(w) != m->bytes_allocated)
-            fail_msg("%s, %u pixels, k=%u, n=%u: %llu bytes, by the paper %llu", method,
-                     (unsigned)w->pixels, (unsigned)w->k, (unsigned)w->n,
-                     (unsigned long long)m->bytes_allocated,
-                     (unsigned long long)formulas[i].bytes(w));
+    if (formula->bytes(w) != m->bytes_allocated)
+        fail_msg("%s, %u pixels, k=%u, n=%u: %llu bytes, by the paper %llu", formula->method,
+                 (unsigned)w->pixels, (unsigned)w->k, (unsigned)w->n,
+                 (unsigned long long)m->bytes_allocated, (unsigned long long)formula->bytes(w));
 }
 
 static uint64_t tiles_of(const fm_scene *scene)
@@ -231,7 +251,9 @@ static uint64_t pages_of(const fm_truth *truth)
     return pages;
 }
 
-static void measure_bytes(kit_scene *scene, const fm_method_desc *method, uint32_t k)
+/* formula NULL: none is written here, and what is allocated is as predicted. */
+static void measure_bytes(kit_scene *scene, const fm_method_desc *method, uint32_t k,
+                          const struct formula *formula)
 {
     const workload w = { .pixels = (uint64_t)scene->scene->width_px * scene->scene->height_px,
                          .k = k,
@@ -240,19 +262,40 @@ static void measure_bytes(kit_scene *scene, const fm_method_desc *method, uint32
                          .kept = truth_kept(scene->truth, k),
                          .tiles = tiles_of(scene->scene),
                          .pages = pages_of(scene->truth) };
-    char texts[16];
+    char texts[64];
     fm_measurement m;
-    snprintf(texts, sizeof texts, "k=%u", k);
+    snprintf(texts, sizeof texts, "k=%u%s", k,
+             formula != NULL ? formula->method + strlen(method->id) : "");
     const uint32_t alone = kit_feeds(method) & FM_FEED_TRIANGLES;
     const uint32_t feed = alone != 0 ? alone : FM_FEED_RASTER;
     if (kit_measure_times(&m, scene, &(kit_way){ method->id, feed, texts })) {
         if (m.bytes_allocated != m.bytes_predicted)
-            fail_msg("%s, k=%u: %llu bytes allocated, %llu predicted", method->id, k,
+            fail_msg("%s, %s: %llu bytes allocated, %llu predicted", method->id, texts,
                      (unsigned long long)m.bytes_allocated, (unsigned long long)m.bytes_predicted);
         assert_true(m.bytes_used <= m.bytes_allocated);
-        expect_formula(method->id, &w, &m);
+        if (formula != NULL)
+            expect_formula(formula, &w, &m);
     }
     measurement_free(&m);
+}
+
+static bool is_of(const struct formula *formula, const fm_method_desc *method)
+{
+    const size_t length = strcspn(formula->method, " ");
+    return strlen(method->id) == length && strncmp(formula->method, method->id, length) == 0;
+}
+
+static void measure_method(kit_scene *scene, const fm_method_desc *method, uint32_t k)
+{
+    bool has_formula = false;
+    for (size_t i = 0; i < sizeof formulas / sizeof formulas[0]; i++) {
+        if (!is_of(&formulas[i], method))
+            continue;
+        has_formula = true;
+        measure_bytes(scene, method, k, &formulas[i]);
+    }
+    if (!has_formula)
+        measure_bytes(scene, method, k, NULL);
 }
 
 /* The formula knows no device: unless all is wanted, each shows one k. */
@@ -268,7 +311,7 @@ static void bytes_on(void **state, const char *texts)
     for (size_t i = 0; i < kit.plugins.count; i++)
         for (size_t j = 0; j < sizeof ks / sizeof ks[0] && kit_feeds(kit_method(&kit, i)) != 0; j++)
             if (kit_wants_all() || (ks[j] > 1) == is_vulkan)
-                measure_bytes(&scene, kit_method(&kit, i), ks[j]);
+                measure_method(&scene, kit_method(&kit, i), ks[j]);
     kit_scene_close(&scene);
     kit_close(&kit);
 }

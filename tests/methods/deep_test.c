@@ -56,14 +56,17 @@ static void a_buffers_sort_any_number_of_fragments(void **state)
 /* Within the iterations that Mesa's software rasterisers allow an invocation. */
 static void three_thousand_fragments_are_sorted_where_they_lie(void **state)
 {
-    static const char *const methods[] = { "ab-array", "ab-ll-paged" };
+    static const kit_way ways[] = { { "ab-array", FM_FEED_RASTER, "" },
+                                    { "ab-ll-paged", FM_FEED_RASTER, "" },
+                                    { "ab-ll", FM_FEED_RASTER, "node=split" },
+                                    { "ab-ll", FM_FEED_RASTER, "node=whole" } };
     scene_kit kit;
     kit_scene scene;
     kit_open(&kit, device_of(state));
     kit_scene_open(&scene, &kit,
                    "width_px=2 height_px=1 pixel_density=1 tessellation=1 n=3000 alpha=0.005");
-    for (size_t i = 0; i < sizeof methods / sizeof methods[0]; i++)
-        expect_exact(&scene, &(kit_way){ methods[i], FM_FEED_RASTER, "" });
+    for (size_t i = 0; i < sizeof ways / sizeof ways[0]; i++)
+        expect_exact(&scene, &ways[i]);
     kit_scene_close(&scene);
     kit_close(&kit);
 }

@@ -60,13 +60,13 @@ static bool is_judged(const fm_method_desc *method)
            (method->traits & free) == 0;
 }
 
-/* The number says which layout. */
+/* The number says how fragments lie. */
 static void check_method(kit_scene *scene, const fm_method_desc *method, uint32_t feeds,
                          size_t number, const char *name)
 {
     for (uint32_t feed = FM_FEED_RASTER; feed <= FM_FEED_TRIANGLES; feed <<= 1, number++) {
         char texts[96];
-        kit_layout_in_turn(texts, "k=8", method, number);
+        kit_memory_in_turn(texts, "k=8", method, number);
         const kit_way way = { method->id, feed, texts };
         fm_measurement m;
         char where[256], at[320];

@@ -100,6 +100,22 @@ static void one_deep_pixel_is_exact(void **state)
     kit_close(&kit);
 }
 
+/* Where a driver ends loops they are sorted by their links, in several runs. */
+static void deep_lists_of_any_nodes_are_exact(void **state)
+{
+    static const char *const methods[] = { "ab-ll", "ab-ll-bucket", "kb-ab-ll" };
+    static const char *const texts[] = { "k=40 node=split", "k=40 node=whole" };
+    scene_kit kit;
+    kit_scene scene;
+    kit_open(&kit, device_of(state));
+    kit_scene_open(&scene, &kit,
+                   "width_px=2 height_px=1 pixel_density=1 tessellation=1 alpha=0.001 n=5000");
+    for (size_t i = 0; i < 2 * sizeof methods / sizeof methods[0]; i++)
+        expect_exact(&scene, &(kit_way){ methods[i / 2], FM_FEED_RASTER, texts[i % 2] });
+    kit_scene_close(&scene);
+    kit_close(&kit);
+}
+
 static void pixels_of_any_depth_are_exact(void **state)
 {
     static const char *const orders[] = { "order=random depths=coplanar", "order=ascending",
@@ -153,6 +169,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         ON_VULKAN_AND_OSMESA(one_deep_pixel_is_exact),
+        ON_VULKAN_AND_OSMESA(deep_lists_of_any_nodes_are_exact),
         ON_VULKAN_AND_OSMESA(pixels_of_any_depth_are_exact),
         ON_VULKAN_AND_OSMESA(a_shader_that_stops_in_time_is_not_wrong),
         ON_VULKAN_AND_OSMESA(a_deep_pixel_among_shallow_ones_is_exact),

@@ -171,15 +171,14 @@ static void order_of_drawing_changes_nothing(void **state)
     on_each_exact(state, 0, expect_any_order);
 }
 
-/* Each layout against the first. */
-static void expect_any_layout(kit_scene *scene, const quad_list *list, const fm_method_desc *method)
+/* Each value against the first. */
+static void expect_any_value(kit_scene *scene, const fm_method_desc *method, const char *name)
 {
-    (void)list;
-    const fm_option *layout = option_find(method, "layout");
+    const fm_option *option = option_find(method, name);
     fm_image *first = NULL;
-    for (int i = 0; layout != NULL && i < VALUES && layout->values[i] != NULL; i++) {
+    for (int i = 0; option != NULL && i < VALUES && option->values[i] != NULL; i++) {
         char texts[64];
-        snprintf(texts, sizeof texts, "k=5 layout=%s", layout->values[i]);
+        snprintf(texts, sizeof texts, "k=5 %s=%s", name, option->values[i]);
         const kit_way way = { method->id, FM_FEED_RASTER, texts };
         fm_image *image = picture(scene, method, texts);
         if (image != NULL && first != NULL)
@@ -193,9 +192,16 @@ static void expect_any_layout(kit_scene *scene, const quad_list *list, const fm_
     image_destroy(first);
 }
 
+static void expect_any_memory(kit_scene *scene, const quad_list *list, const fm_method_desc *method)
+{
+    (void)list;
+    for (size_t i = 0; i < AUTO_OPTION_COUNT; i++)
+        expect_any_value(scene, method, auto_options[i].name);
+}
+
 static void layout_in_memory_changes_nothing(void **state)
 {
-    on_each_exact(state, 0, expect_any_layout);
+    on_each_exact(state, 0, expect_any_memory);
 }
 
 /* The picture out of a larger one. */

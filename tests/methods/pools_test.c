@@ -65,20 +65,34 @@ static const fm_resource *pool_of(const fm_method_desc *method)
     return NULL;
 }
 
-static void expect_growth(kit_scene *scene, const fm_method_desc *method, size_t pool)
+static void expect_growth(kit_scene *scene, const fm_method_desc *method, size_t pool,
+                          const char *texts)
 {
     fm_measurement m;
     const bool is_enough = pools[pool].is_enough && needed(pool_of(method)) != 0;
     scene->edit = pools[pool].edit;
-    if (kit_measure(&m, scene, &(kit_way){ method->id, FM_FEED_RASTER, "" })) {
+    if (kit_measure(&m, scene, &(kit_way){ method->id, FM_FEED_RASTER, texts })) {
         if (m.check.missing + m.check.extra + m.check.misordered + m.lost != 0)
-            fail_msg("%s, pool %s: missing %u, lost %u", method->id, pools[pool].name,
+            fail_msg("%s, %s, pool %s: missing %u, lost %u", method->id, texts, pools[pool].name,
                      (unsigned)m.check.missing, (unsigned)m.lost);
         if ((m.frames_redone == 0) != is_enough)
-            fail_msg("%s, pool %s: %u frames were run again", method->id, pools[pool].name,
-                     (unsigned)m.frames_redone);
+            fail_msg("%s, %s, pool %s: %u frames were run again", method->id, texts,
+                     pools[pool].name, (unsigned)m.frames_redone);
     }
     measurement_free(&m);
+}
+
+/* With each kind of nodes, where the method has a choice. */
+static void expect_all_growth(kit_scene *scene, const fm_method_desc *method, size_t pool)
+{
+    const fm_option *node = option_find(method, "node");
+    if (node == NULL)
+        expect_growth(scene, method, pool, "");
+    for (size_t i = 0; node != NULL && i < FM_MAX_OPTION_VALUES && node->values[i] != NULL; i++) {
+        char texts[64];
+        snprintf(texts, sizeof texts, "node=%s", node->values[i]);
+        expect_growth(scene, method, pool, texts);
+    }
 }
 
 static void pools_grow_until_no_fragment_is_missing(void **state)
@@ -94,7 +108,7 @@ static void pools_grow_until_no_fragment_is_missing(void **state)
             continue;
         found++;
         for (size_t pool = 0; pool < sizeof pools / sizeof pools[0]; pool++)
-            expect_growth(&scene, method, pool);
+            expect_all_growth(&scene, method, pool);
     }
     assert_true(found > 0);
     kit_scene_close(&scene);

@@ -120,7 +120,7 @@ static void measure_all(outcomes *seen, kit_scene *scene, const random_scene *fr
         const fm_method_desc *method = kit_method(scene->kit, i);
         for (uint32_t feed = FM_FEED_RASTER; feed <= FM_FEED_TRIANGLES; feed <<= 1) {
             char texts[96];
-            kit_layout_in_turn(texts, from->k, method, seen->measured);
+            kit_memory_in_turn(texts, from->k, method, seen->measured);
             const kit_way way = { .method = method->id, .feed = feed, .texts = texts };
             if ((kit_feeds(method) & feed) == 0 || !kit_is_right(method, any_ties))
                 continue;

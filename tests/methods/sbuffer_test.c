@@ -98,7 +98,8 @@ static void check_example(fm_device *device, const example *as)
     fm_error err = { .message = "" };
     fm_choice choices[] = { { .name = "counters", .value = "3" },
                             { .name = "mapping" },
-                            { .name = "hash", .value = "paper" } };
+                            { .name = "hash", .value = "paper" },
+                            { .name = "per_pixel", .value = "rows" } };
     snprintf(choices[1].value, sizeof choices[1].value, "%s", as->mapping);
     kit_open(&kit, device);
     kit_scene_take(&scene, &kit, make_scene());

@@ -66,9 +66,11 @@ static size_t expect_values(kit_scene *scene, const char *option, const char *ke
             continue;
         found++;
         for (size_t v = 1; v < FM_MAX_OPTION_VALUES && has->values[v] != NULL; v++) {
-            char texts[128];
-            snprintf(texts, sizeof texts, "%s=%s %s", option, has->values[v], keys);
-            if (kit_wants_all() || (found + v + scene->scene->n) % 2 == is_vulkan)
+            const size_t number = found + v + scene->scene->n;
+            char given[64], texts[96];
+            snprintf(given, sizeof given, "%s=%s %s", option, has->values[v], keys);
+            kit_memory_in_turn(texts, given, method, number);
+            if (kit_wants_all() || number % 2 == is_vulkan)
                 expect_exact(scene, method, texts);
         }
     }

@@ -108,7 +108,7 @@ static void a_device_is_looked_at_by_a_worker(void **state)
         "\"is_software\":false,\"image_layers\":2048,\"image_max_bytes\":4096}' >\"$3\" ;;\n"
         "esac\n";
     fake_plan fake;
-    fm_layout_device device;
+    fm_auto_device device;
     fm_error err = { .message = "" };
     fake_open(&fake, ids, 1);
     fake_write(&fake, "worker.sh", script, "w");

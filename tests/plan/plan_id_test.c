@@ -41,17 +41,17 @@ static const fm_method_desc open_layout = {
 };
 
 /* Answers of devices; the context counts who asks. */
-static fm_status ask_gpu(fm_layout_device *device, const void *context, const char *name,
+static fm_status ask_gpu(fm_auto_device *device, const void *context, const char *name,
                          fm_error *err)
 {
     (void)err;
     ++**(unsigned *const *)context;
     assert_string_equal(name, "vulkan");
-    *device = (fm_layout_device){ .image_layers = 16, .image_max_bytes = 1 << 30 };
+    *device = (fm_auto_device){ .image_layers = 16, .image_max_bytes = 1 << 30 };
     return FM_OK;
 }
 
-static fm_status ask_nobody(fm_layout_device *device, const void *context, const char *name,
+static fm_status ask_nobody(fm_auto_device *device, const void *context, const char *name,
                             fm_error *err)
 {
     (void)device;
@@ -59,7 +59,7 @@ static fm_status ask_nobody(fm_layout_device *device, const void *context, const
     return fm_fail(err, FM_IO, "%s: no driver", name);
 }
 
-typedef fm_status asker(fm_layout_device *, const void *, const char *, fm_error *);
+typedef fm_status asker(fm_auto_device *, const void *, const char *, fm_error *);
 
 static void expand_open(fm_plan *plan, const fm_method_desc *method, const char *axis, asker *ask,
                         unsigned *asked)
@@ -93,12 +93,12 @@ static void an_open_layout_is_what_it_means_on_the_device(void **state)
     assert_string_equal(plan.cases[0].choices[0].value, "image");
     assert_string_equal(plan.cases[1].choices[0].value, "image");
     assert_string_equal(plan.cases[2].choices[0].value, "layer");
-    assert_true(plan.cases[0].has_auto_layout);
+    assert_int_equal(plan.cases[0].worked_out, 1u);
     snprintf(id, sizeof id, "%s", plan.cases[0].id);
     plan_free(&plan);
     expand_open(&plan, &open_layout, "layout=image", ask_gpu, &asked);
     assert_int_equal(asked, 0);
-    assert_false(plan.cases[0].has_auto_layout);
+    assert_int_equal(plan.cases[0].worked_out, 0u);
     assert_string_equal(plan.cases[0].id, id); /* k is 8 unless it is told */
     plan_free(&plan);
     expand_open(&plan, &usual, NULL, ask_gpu, &asked);

@@ -39,6 +39,26 @@ static fm_method_desc with_stand_in(void)
     };
 }
 
+/* The same with two pools, of words and of nodes: what is counted without room are elements of the
+ * one that is there. */
+static fm_method_desc with_pools(void)
+{
+    fm_method_desc m = with_stand_in();
+    m.resources[RECORDS] = (fm_resource){ .name = "records",
+                                          .extent = { .per_pixel = 3 },
+                                          .sizing = FM_SIZE_GROW,
+                                          .overflow = "stored",
+                                          .grown = { .per_fragment = 3 } };
+    m.resources[STAND_IN] = m.resources[RECORDS];
+    m.resources[STAND_IN].element = FM_ELEMENT_UVEC4;
+    m.resources[STAND_IN].extent.per_pixel = 1;
+    m.resources[STAND_IN].grown.per_fragment = 1;
+    m.resources[STAND_IN].when_option = "layout";
+    m.resources[STAND_IN].when_value = "layer-major";
+    m.totals[1] = (fm_total){ .name = "other", .resource = "counts", .sum = true, .pass = "store" };
+    return m;
+}
+
 /* CHANGE works on `m`, a sound descriptor. */
 #define REFUSES(CHANGE, MESSAGE)                                                                   \
     do {                                                                                           \
@@ -58,6 +78,47 @@ static void plugin_check_takes_a_stand_in(void **state)
     m.resources[STAND_IN + 1].when_value = "pixel";
     if (plugin_check(&m, "test", &err) != FM_OK)
         fail_msg("%s", err.message);
+}
+
+static void plugin_check_takes_pools_that_grow_alike(void **state)
+{
+    (void)state;
+    fm_error err = { .message = "" };
+    const fm_method_desc m = with_pools();
+    if (plugin_check(&m, "test", &err) != FM_OK)
+        fail_msg("%s", err.message);
+}
+
+static void plugin_check_rejects_pools_that_do_not(void **state)
+{
+    (void)state;
+    static const char message[] = "need a fixed size or one overflow";
+    fm_method_desc m = with_pools();
+    m.resources[STAND_IN].overflow = "other";
+    assert_check_fails(&m, message);
+    m = with_pools();
+    m.resources[STAND_IN] = (fm_resource){ .name = "records",
+                                           .extent = { .per_pixel = 1 },
+                                           .when_option = "layout",
+                                           .when_value = "layer-major" };
+    assert_check_fails(&m, message);
+    m = with_pools();
+    m.resources[RECORDS] = (fm_resource){ .name = "records", .extent = { .per_pixel = 1 } };
+    assert_check_fails(&m, message);
+    m = with_pools();
+    m.resources[RECORDS].overflow = NULL;
+    assert_check_fails(&m, "sizing that grows: needs overflow");
+    m.resources[COUNTS] = m.resources[STAND_IN]; /* what it replaces is checked behind it */
+    m.resources[STAND_IN] = (fm_resource){ .name = "counts", .extent = { .per_pixel = 1 } };
+    assert_check_fails(&m, message);
+    m = with_pools();
+    for (int i = RECORDS; i <= STAND_IN; i++) {
+        m.resources[i].sizing = FM_SIZE_AFTER_TOTAL;
+        m.resources[i].overflow = NULL;
+        m.resources[i].grown = (fm_extent){ 0 };
+        m.resources[i].extent = (fm_extent){ .per_total = 1, .total = "stored" };
+    }
+    assert_check_fails(&m, message);
 }
 
 static void plugin_check_rejects_bad_conditions(void **state)
@@ -108,6 +169,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(plugin_check_takes_a_stand_in),
+        cmocka_unit_test(plugin_check_takes_pools_that_grow_alike),
+        cmocka_unit_test(plugin_check_rejects_pools_that_do_not),
         cmocka_unit_test(plugin_check_rejects_bad_conditions),
         cmocka_unit_test(plugin_check_rejects_stand_ins_that_others_lean_on),
     };

@@ -81,7 +81,8 @@ void kit_open(kit_run *run, const kit_run_desc *desc)
     add_samples(&samples, desc->samples);
     text_add(&manifest,
              "{\"schema\": 1, \"run_id\": \"%s\", \"started\": \"%s\", \"machine\": {%s}, "
-             "\"methods\": {\"a\": {\"defaults\": \"x=1 y=2\"}, "
+             "\"methods\": {\"a\": {\"defaults\": \"x=1 y=2 node=auto node=split "
+             "node=whole layout=auto layout=tile layout=image\"}, "
              "\"racy\": {\"traits\": [\"racy\"]}}, \"devices\": [%s]}",
              desc->run_id != NULL ? desc->run_id : "",
              desc->started != NULL ? desc->started : "2026-01-02T03:04:05Z",

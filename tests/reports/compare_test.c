@@ -27,6 +27,26 @@ static void cases_are_joined_by_id_and_then_by_name(void **state)
     kit_end(&kit);
 }
 
+/* The default of layout and node differs between devices: what a row has tells it apart, and rows
+ * of before there was a choice of nodes had split ones. */
+static void cases_of_one_name_are_told_apart_by_what_auto_means(void **state)
+{
+    static const char *const base[] = { "k=4", "k=8;options=x=1", "k=2;options=node=whole",
+                                        "k=1;options=layout=tile" };
+    static const char *const now[] = { "case_id=d0;k=4;options=node=split",
+                                       "case_id=d1;k=8;options=x=1 node=whole",
+                                       "case_id=d2;k=2;options=node=whole",
+                                       "case_id=d3;k=1;options=layout=image" };
+    kit_comparison kit;
+    (void)state;
+    (void)state;
+    kit_compare(&kit, &(kit_run_desc){ ROWS(base) }, &(kit_run_desc){ ROWS(now) }, NULL);
+    assert_int_equal(kit.made.count, 2);
+    assert_string_equal(kit_case(&kit, "c0")->pair.now->id, "d0");
+    assert_string_equal(kit_case(&kit, "c2")->pair.now->id, "d2");
+    kit_end(&kit);
+}
+
 /* Layers have an n each; of a mesh that crashed none is known. */
 static void cases_of_one_name_are_told_apart_by_n(void **state)
 {
@@ -347,6 +367,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cases_are_joined_by_id_and_then_by_name),
+        cmocka_unit_test(cases_of_one_name_are_told_apart_by_what_auto_means),
         cmocka_unit_test(cases_of_one_name_are_told_apart_by_n),
         cmocka_unit_test(runs_without_a_common_case_do_not_compare),
         cmocka_unit_test(milliseconds_of_two_machines_are_refused),

@@ -133,9 +133,11 @@ typedef enum fm_marker {
  * as the index of the chosen value, and NAME_VALUE as the index of each value. If all values are
  * whole numbers, NAME is the number itself. Its value, chosen or not, is part of a case's id and
  * stands in the column `options`.
- * The value `auto` of an option `layout` is the runner's: it means the fastest of the others on the
- * device, of `image`, `tile`, `layer` and `pixel` those that the method has, and never an image
- * that the device lacks. Cases, ids and shaders have what it means. */
+ * The value `auto` of an option `layout`, `node` or `per_pixel` is the runner's: it means the
+ * fastest of the others on the device, and never an image that the device lacks. Of a layout, where
+ * arrays of a pixel's fragments lie, these are `image`, `tile`, `layer` and `pixel`, as many as the
+ * method has; of a list's node `split` (three words) and `whole` (16 bytes at once); of the words
+ * that each pixel has `rows`, `tiles` and `images`. Cases, ids and shaders have what it means. */
 typedef struct fm_option {
     const char *name; /* lower-case letters, digits, '-' and '_'; no key of the runner */
     const char *values[FM_MAX_OPTION_VALUES]; /* the first is the default; letters as in a name, or

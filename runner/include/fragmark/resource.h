@@ -146,7 +146,9 @@ typedef struct fm_resource {
      * too: a layered image for a buffer, say. Passes name either by that name, and what they do
      * with it must suit both. The macro of the option tells shaders which one it is. Stand-ins of
      * one name hang on one option. Neither they nor what they replace are ping-pong, sized after a
-     * total, growing or shared, and no total, target, depth or indirect pass names them. */
+     * total or shared, and no total, target, depth or indirect pass names them. If one of them
+     * grows, so does the other, by the same `overflow`; what that counts are elements of the one
+     * that is there. */
     const char *when_option, *when_value;
 } fm_resource;
 

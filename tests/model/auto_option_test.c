@@ -1,4 +1,4 @@
-/* Resources by option, and what layout=auto is on a device. */
+/* Resources by option, and what `auto` of an option is on a device. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -7,8 +7,8 @@
 #include <cmocka.h>
 #include <string.h>
 
+#include "model/auto_option.h"
 #include "model/formula.h"
-#include "model/layout.h"
 
 /* Records of k a pixel: in a buffer, or on k layers. */
 static fm_method_desc make_method(uint32_t traits)
@@ -69,18 +69,17 @@ static void without_choices_the_first_value_counts(void **state)
     assert_int_equal(chosen.resources[1].kind, FM_RESOURCE_IMAGE);
 }
 
-static const fm_layout_device gpu = { .image_layers = 64, .image_max_bytes = 8 * 6 * 32 };
-static const fm_layout_device software = { .is_software = true,
-                                           .image_layers = 64,
-                                           .image_max_bytes = 1 << 20 };
+static const fm_auto_device gpu = { .image_layers = 64, .image_max_bytes = 8 * 6 * 32 };
+static const fm_auto_device software = { .is_software = true,
+                                         .image_layers = 64,
+                                         .image_max_bytes = 1 << 20 };
 
 /* 3 x 2 pixels. */
-static const char *resolved(const fm_method_desc *method, uint32_t k,
-                            const fm_layout_device *device)
+static const char *resolved(const fm_method_desc *method, uint32_t k, const fm_auto_device *device)
 {
     static fm_choice choices[FM_MAX_OPTIONS];
-    const fm_layout_case of = { .method = method, .width_px = 3, .height_px = 2, .k = k };
-    assert_int_equal(layout_choices(choices, NULL, 0, &of, device), 2);
+    const fm_auto_case of = { .method = method, .width_px = 3, .height_px = 2, .k = k };
+    assert_int_equal(auto_choices(choices, NULL, 0, &of, device), 2);
     assert_string_equal(choices[1].value, "4");
     return choices[0].value;
 }
@@ -98,7 +97,7 @@ static void an_image_that_a_device_lacks_is_not_taken(void **state)
 {
     (void)state;
     const fm_method_desc method = make_method(FM_TRAIT_BOUNDED);
-    fm_layout_device device = gpu;
+    fm_auto_device device = gpu;
     assert_string_equal(resolved(&method, 32, &device), "image");
     assert_string_equal(resolved(&method, 33, &device), "tile");
     device.image_max_bytes *= 4;
@@ -116,13 +115,13 @@ static void a_shared_map_keeps_arrays_in_buffers(void **state)
     settings_default(&settings);
     settings.width_px = 3;
     settings.height_px = 2;
-    fm_layout_case of = layout_case(&method, &settings, 0);
-    layout_choices(choices, NULL, 0, &of, &gpu);
+    fm_auto_case of = auto_case(&method, &settings, 0);
+    auto_choices(choices, NULL, 0, &of, &gpu);
     assert_string_equal(choices[0].value, "image");
     settings.culling = FM_CULLING_OCCUPANCY;
     settings.cull_memory = FM_CULL_MEMORY_SHARED;
-    of = layout_case(&method, &settings, 0);
-    layout_choices(choices, NULL, 0, &of, &gpu);
+    of = auto_case(&method, &settings, 0);
+    auto_choices(choices, NULL, 0, &of, &gpu);
     assert_string_equal(choices[0].value, "tile");
 }
 
@@ -141,11 +140,53 @@ static void a_layout_that_was_chosen_stays(void **state)
 {
     (void)state;
     const fm_method_desc method = make_method(FM_TRAIT_BOUNDED);
-    const fm_layout_case of = { .method = &method, .width_px = 3, .height_px = 2, .k = 8 };
+    const fm_auto_case of = { .method = &method, .width_px = 3, .height_px = 2, .k = 8 };
     fm_choice choices[FM_MAX_OPTIONS];
-    layout_choices(choices, &by_tile, 1, &of, &gpu);
+    auto_choices(choices, &by_tile, 1, &of, &gpu);
     assert_string_equal(choices[0].value, "tile");
-    assert_false(layout_is_open(&choices[0]));
+    assert_false(auto_is_open(&choices[0]));
+}
+
+/* Whatever traits a method has. */
+static void a_list_has_whole_nodes_on_a_gpu(void **state)
+{
+    (void)state;
+    for (uint32_t traits = 0; traits <= FM_TRAIT_BOUNDED; traits += FM_TRAIT_BOUNDED) {
+        fm_method_desc method = make_method(traits);
+        method.options[0] = (fm_option){ .name = "node", .values = { "auto", "split", "whole" } };
+        assert_string_equal(resolved(&method, 8, &gpu), "whole");
+        assert_string_equal(resolved(&method, 8, &software), "split");
+        method.options[0].values[2] = NULL;
+        assert_string_equal(resolved(&method, 8, &gpu), "split");
+    }
+}
+
+/* Images that the device lacks are not taken. */
+static void words_of_pixels_lie_in_images_on_software(void **state)
+{
+    (void)state;
+    fm_method_desc method = make_method(0);
+    fm_auto_device device = software;
+    method.options[0] =
+        (fm_option){ .name = "per_pixel", .values = { "auto", "tiles", "images", "rows" } };
+    method.resources[2].when_option = "per_pixel";
+    method.resources[2].when_value = "images";
+    assert_string_equal(resolved(&method, 8, &device), "images");
+    device.image_layers = 7;
+    assert_string_equal(resolved(&method, 8, &device), "rows");
+    assert_string_equal(resolved(&method, 8, &gpu), "rows");
+}
+
+/* start=auto, say, is what the method's shaders make of it. */
+static void auto_of_another_option_is_the_methods_own(void **state)
+{
+    (void)state;
+    fm_method_desc method = make_method(0);
+    method.options[0] = (fm_option){ .name = "start", .values = { "auto", "front" } };
+    assert_string_equal(resolved(&method, 8, &gpu), "auto");
+    assert_false(auto_is_open(&(fm_choice){ "start", "auto" }));
+    assert_true(auto_is_open(&(fm_choice){ "node", "auto" }));
+    assert_false(auto_is_open(&(fm_choice){ "node", "split" }));
 }
 
 int main(void)
@@ -159,6 +200,9 @@ int main(void)
         cmocka_unit_test(a_shared_map_keeps_arrays_in_buffers),
         cmocka_unit_test(a_method_has_only_its_own_layouts),
         cmocka_unit_test(a_layout_that_was_chosen_stays),
+        cmocka_unit_test(a_list_has_whole_nodes_on_a_gpu),
+        cmocka_unit_test(words_of_pixels_lie_in_images_on_software),
+        cmocka_unit_test(auto_of_another_option_is_the_methods_own),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
