@@ -9,9 +9,10 @@
 //   FM_LOCK_BARRIERS  without that model, barriers of the owner alone, which order both ways
 //   neither           Mesa's software rasterisers, whose memory is coherent: barriers that invocations pass
 //                     a different number of times are miscompiled there
-#if FM_EXCLUSIVE && FM_LOOP_LIMIT > 0
+#if FM_LOCK_WAITS
 // A lock's owner may lose its processor for many milliseconds. The driver counts iterations of loops, so
-// waiting that long takes tries that are slow without a loop: 64 atomics, which change nothing.
+// waiting that long takes tries that are slow without a loop: 64 atomics, which change nothing. Where lanes
+// share one way they cost most of a try that waits for nobody, too.
 #define FM_WAIT_ONCE atomicOr(fm_locks[lock], 0u);
 #define FM_WAIT_FOUR FM_WAIT_ONCE FM_WAIT_ONCE FM_WAIT_ONCE FM_WAIT_ONCE
 #define FM_WAIT_16   FM_WAIT_FOUR FM_WAIT_FOUR FM_WAIT_FOUR FM_WAIT_FOUR
@@ -71,7 +72,7 @@ void fm_take(uvec2 pixel, float depth, uint colour)
             fm_unlock(lock);
             is_done = true;
         }
-#if FM_LOOP_LIMIT > 0
+#if FM_LOCK_WAITS
         if (!is_mine && tries >= 64u)
             fm_wait(lock);
 #endif
