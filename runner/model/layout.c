@@ -5,17 +5,21 @@
 
 #include "model/formula.h"
 
-/* Layouts from the fastest on, as measured: DECISIONS.md, 108. */
+/* Layouts from the fastest on, as measured: DECISIONS.md, 108 and 114. The first rule that fits. */
 typedef struct layout_rule {
-    bool is_software, is_bounded; /* of the device; of the method: FM_TRAIT_BOUNDED */
+    bool is_software;    /* of the device */
+    uint32_t has, lacks; /* of the method: FM_TRAIT_* */
     const char *order[4];
 } layout_rule;
 
 static const layout_rule rules[] = {
-    { .is_software = false, .is_bounded = true, .order = { "image", "tile", "layer", "pixel" } },
-    { .is_software = false, .is_bounded = false, .order = { "tile", "layer", "pixel", "image" } },
-    { .is_software = true, .is_bounded = true, .order = { "tile", "pixel", "layer", "image" } },
-    { .is_software = true, .is_bounded = false, .order = { "tile", "pixel", "layer", "image" } },
+    { .has = FM_TRAIT_BOUNDED, .order = { "image", "tile", "layer", "pixel" } },
+    { .is_software = false, .order = { "tile", "layer", "pixel", "image" } },
+    { .is_software = true,
+      .has = FM_TRAIT_BOUNDED,
+      .lacks = FM_TRAIT_SORTS_IN_RESOLVE, /* walks along a pixel's slots for each fragment */
+      .order = { "pixel", "tile", "layer", "image" } },
+    { .is_software = true, .order = { "tile", "pixel", "layer", "image" } },
 };
 enum { ORDER_LENGTH = sizeof rules[0].order / sizeof rules[0].order[0] };
 
@@ -74,8 +78,8 @@ static const layout_rule *rule_for(const fm_method_desc *method, const fm_layout
 {
     const layout_rule *rule = rules;
     while (rule->is_software != device->is_software ||
-           rule->is_bounded != ((method->traits & FM_TRAIT_BOUNDED) != 0))
-        rule++; /* there is one for each pair */
+           (method->traits & (rule->has | rule->lacks)) != rule->has)
+        rule++; /* the last one of each device asks for no trait */
     return rule;
 }
 
