@@ -27,9 +27,10 @@
 #define fm_lock_store atomicStore
 #endif
 
-#if FM_LOOP_LIMIT > 0
+#if FM_LOCK_WAITS
 // A lock's owner may lose its processor for many milliseconds. The driver counts iterations of loops, so
-// waiting that long takes tries that are slow without a loop: 64 atomics, which change nothing.
+// waiting that long takes tries that are slow without a loop: 64 atomics, which change nothing. Where lanes
+// share one way they cost most of a try that waits for nobody, too.
 #define FM_WAIT_ONCE fm_lock_or(FM_LOCK_AT, 0u);
 #define FM_WAIT_FOUR FM_WAIT_ONCE FM_WAIT_ONCE FM_WAIT_ONCE FM_WAIT_ONCE
 #define FM_WAIT_16   FM_WAIT_FOUR FM_WAIT_FOUR FM_WAIT_FOUR FM_WAIT_FOUR
@@ -101,7 +102,7 @@ void fm_take(uvec2 pixel, float depth, uint colour)
             is_done = true;
         }
         is_refused = !is_done && fm_is_refused(depth);
-#if FM_LOOP_LIMIT > 0
+#if FM_LOCK_WAITS
         if (!is_mine && tries >= 64u)
             fm_wait(pixel);
 #endif

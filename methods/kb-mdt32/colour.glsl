@@ -10,7 +10,5 @@ void store(uvec2 pixel, float depth, uint colour)
     uint key = key_of(depth);
     if (key > key_at(pixel, K - 1u)) // most fragments, where k is small
         return;
-    uint slot = slot_by_search(pixel, key);
-    if (key_at(pixel, slot) == key)
-        put_colour(pixel, slot, colour);
+    put_colour(pixel, slot_by_search(pixel, key), colour); // it is there: all keys up to the last slot's are
 }

@@ -116,6 +116,9 @@ bool pass_has_interlock(const fm_instance *instance, const fm_pass *pass);
 bool pass_has_lock_in_word(const fm_instance *instance, const fm_pass *pass);
 /* Its spin lock lies in the runner's buffer fm_locks. */
 bool pass_has_own_locks(const fm_instance *instance, const fm_pass *pass);
+/* Invocations of its pixels may hold their locks while they wait for a processor, and the tries for
+ * them are few: each try takes its time. */
+bool pass_lock_waits(const fm_instance *instance, const fm_pass *pass);
 /* Its lock acquires and releases by Vulkan's memory model, instead of barriers. */
 bool pass_has_memory_model(const fm_instance *instance, const fm_pass *pass);
 /* The first pass that emits: it starts the picture. */

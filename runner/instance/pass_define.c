@@ -119,6 +119,7 @@ void pass_define(fm_text *text, const fm_instance *instance, const fm_pass *pass
     shader_define(text, "FM_MEMORY_MODEL", pass_has_memory_model(instance, pass));
     shader_define(text, "FM_EXCLUSIVE", pass->exclusive && instance->is_spin_locked);
     define_lock(text, instance, pass);
+    shader_define(text, "FM_LOCK_WAITS", pass_lock_waits(instance, pass));
     shader_define(text, "FM_INTERLOCK", pass_has_interlock(instance, pass));
     shader_define(text, "FM_TARGETS", pass_has_fixed_function(pass));
     shader_define(text, "FM_EMIT_FIRST", pass_emits_first(instance, pass));

@@ -144,6 +144,14 @@ bool pass_emits_first(const fm_instance *instance, const fm_pass *pass)
     return true;
 }
 
+/* A software rasteriser draws the fragments of a pixel on one thread, one after the other: nobody
+ * waits for a lock there. Dispatches have several. */
+bool pass_lock_waits(const fm_instance *instance, const fm_pass *pass)
+{
+    return pass->exclusive && instance->is_spin_locked && instance->device->caps.loop_limit > 0 &&
+           !(instance->device->caps.is_software && pass_is_drawn(instance, pass));
+}
+
 uint64_t pass_units(const fm_instance *instance, const fm_pass *pass)
 {
     const fm_workload *workload = &instance->workload;

@@ -13,23 +13,25 @@ const fm_auto_option auto_options[AUTO_OPTION_COUNT] = { { LAYOUT, "" },
                                                          { NODE, "split" },
                                                          { PIXELS, "rows" } };
 
-/* An option's values from the fastest on, as measured: DECISIONS.md, 108, 110 and 111. The first
+/* An option's values from the fastest on, as measured: DECISIONS.md, 108, 110, 111 and 114. The first
  * rule of an option that is for the device and for the method counts. */
 typedef struct auto_rule {
     const char *option;
-    bool is_software; /* the device */
-    uint32_t traits;  /* which the method has */
+    bool is_software;    /* the device */
+    uint32_t has, lacks; /* traits of the method */
     const char *order[4];
 } auto_rule;
 
 static const auto_rule rules[] = {
-    { LAYOUT, false, FM_TRAIT_BOUNDED, { "image", "tile", "layer", "pixel" } },
-    { LAYOUT, false, 0, { "tile", "layer", "pixel", "image" } },
-    { LAYOUT, true, 0, { "tile", "pixel", "layer", "image" } },
-    { NODE, false, 0, { "whole", "split" } },
-    { NODE, true, 0, { "split", "whole" } },
-    { PIXELS, false, 0, { "rows", "tiles", "images" } },
-    { PIXELS, true, 0, { "images", "rows", "tiles" } },
+    { LAYOUT, false, FM_TRAIT_BOUNDED, 0, { "image", "tile", "layer", "pixel" } },
+    { LAYOUT, false, 0, 0, { "tile", "layer", "pixel", "image" } },
+    /* it walks along a pixel's slots for each fragment */
+    { LAYOUT, true, FM_TRAIT_BOUNDED, FM_TRAIT_SORTS_IN_RESOLVE, { "pixel", "tile", "layer", "image" } },
+    { LAYOUT, true, 0, 0, { "tile", "pixel", "layer", "image" } },
+    { NODE, false, 0, 0, { "whole", "split" } },
+    { NODE, true, 0, 0, { "split", "whole" } },
+    { PIXELS, false, 0, 0, { "rows", "tiles", "images" } },
+    { PIXELS, true, 0, 0, { "images", "rows", "tiles" } },
 };
 enum { ORDER_LENGTH = sizeof rules[0].order / sizeof rules[0].order[0] };
 
@@ -91,7 +93,7 @@ static const auto_rule *rule_for(const char *option, const fm_method_desc *metho
 {
     const auto_rule *rule = rules;
     while (strcmp(rule->option, option) != 0 || rule->is_software != device->is_software ||
-           (method->traits & rule->traits) != rule->traits)
+           (method->traits & (rule->has | rule->lacks)) != rule->has)
         rule++; /* each option has one without traits for both kinds of devices */
     return rule;
 }

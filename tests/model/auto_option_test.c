@@ -92,6 +92,19 @@ static void a_gpu_takes_images_for_what_is_bounded(void **state)
     assert_string_equal(resolved(&list, 8, &gpu), "tile");
 }
 
+/* Chains go through a pixel's slots for each fragment; what sorts later puts it beside its
+ * neighbours'. */
+static void software_takes_pixel_for_chains_and_tile_for_others(void **state)
+{
+    (void)state;
+    const fm_method_desc chain = make_method(FM_TRAIT_BOUNDED | FM_TRAIT_EXACT);
+    const fm_method_desc sorting = make_method(FM_TRAIT_BOUNDED | FM_TRAIT_SORTS_IN_RESOLVE);
+    const fm_method_desc list = make_method(0);
+    assert_string_equal(resolved(&chain, 8, &software), "pixel");
+    assert_string_equal(resolved(&sorting, 8, &software), "tile");
+    assert_string_equal(resolved(&list, 8, &software), "tile");
+}
+
 /* 32 layers are as many bytes as the device's largest image has. */
 static void an_image_that_a_device_lacks_is_not_taken(void **state)
 {
@@ -196,6 +209,7 @@ int main(void)
         cmocka_unit_test(what_is_chosen_stays_chosen),
         cmocka_unit_test(without_choices_the_first_value_counts),
         cmocka_unit_test(a_gpu_takes_images_for_what_is_bounded),
+        cmocka_unit_test(software_takes_pixel_for_chains_and_tile_for_others),
         cmocka_unit_test(an_image_that_a_device_lacks_is_not_taken),
         cmocka_unit_test(a_shared_map_keeps_arrays_in_buffers),
         cmocka_unit_test(a_method_has_only_its_own_layouts),
