@@ -95,6 +95,35 @@ static fm_status make_points(fm_claim_points *points, const fm_claim *claim,
     return FM_OK;
 }
 
+/* A row of a scene that no block of the figure has; NULL: there is none. */
+static const char *other_scene(const fm_paper_figure *figure, const fm_claim_points *points)
+{
+    for (size_t i = 0; i < points->count; i++) {
+        const fm_case_row *result = points->points[i].result;
+        if (result != NULL && figure->own_scenes.count > 0 &&
+            !text_list_has(&figure->own_scenes, result->scene))
+            return result->scene;
+    }
+    return NULL;
+}
+
+/* What holds on another scene than the paper's, or ours for it, is no plain "holds"; what fails
+ * there says nothing of the claim, unless it must hold everywhere. */
+static void place_verdict(fm_verdict *verdict, const fm_claim *claim, const char *scene)
+{
+    const size_t used = strlen(verdict->reason);
+    if (scene == NULL)
+        return;
+    verdict->is_elsewhere = true;
+    snprintf(verdict->reason + used, sizeof verdict->reason - used, "; on %.60s, %s%s", scene,
+             "which is no scene of this figure",
+             verdict->kind == FM_VERDICT_FAILS && !claim->is_required ? ": it fails there" : "");
+    if (verdict->kind == FM_VERDICT_HOLDS)
+        verdict->kind = FM_VERDICT_IN_PART;
+    else if (verdict->kind == FM_VERDICT_FAILS && !claim->is_required)
+        verdict->kind = FM_VERDICT_NOT_TESTABLE;
+}
+
 static fm_status judge_on(fm_verdict *verdict, const verdicts_job *job, const fm_claim *claim,
                           const char *device)
 {
@@ -105,10 +134,12 @@ static fm_status judge_on(fm_verdict *verdict, const verdicts_job *job, const fm
                                  .figure = job->figure->id };
     choose_cases(job, device);
     fm_status status = make_points(&points, claim, &rows, job->err);
-    if (status == FM_OK && points.count > 0)
-        status = claim_judge(verdict, claim, &rows, &points, job->err);
-    else if (status == FM_OK)
+    if (status == FM_OK && points.count == 0)
         explain(verdict, job, claim, device, &points);
+    else if (status == FM_OK)
+        status = claim_judge(verdict, claim, &rows, &points, job->err);
+    if (status == FM_OK && points.count > 0)
+        place_verdict(verdict, claim, other_scene(job->figure, &points));
     claim_points_free(&points);
     return status;
 }
@@ -241,7 +272,7 @@ void claim_paper_value(char text[256], const fm_claim *claim)
 
 static void add_row(fm_text *csv, const fm_claim_result *item)
 {
-    char paper[256];
+    char paper[256], words[FM_VERDICT_WORDS_BYTES];
     const fm_interval *measured = &item->verdict.measured;
     const double numbers[] = { measured->median, measured->low, measured->high };
     const char *const texts[] = { item->claim->id, item->figure->paper, item->figure->id,
@@ -256,7 +287,8 @@ static void add_row(fm_text *csv, const fm_claim_result *item)
         text_add(csv, ",");
     }
     csv_add(csv, paper);
-    text_add(csv, ",%s,", verdict_name(item->verdict.kind));
+    verdict_words(words, &item->verdict);
+    text_add(csv, ",%s,", words);
     csv_add(csv, item->verdict.reason);
     text_add(csv, "\n");
 }

@@ -47,14 +47,15 @@ static void add_cell(fm_text *page, const char *label, const char *text)
 
 static void add_row(fm_text *page, const fm_claim_result *item)
 {
-    char paper[256];
-    const char *verdict = verdict_name(item->verdict.kind);
+    char paper[256], words[FM_VERDICT_WORDS_BYTES];
+    verdict_words(words, &item->verdict);
     claim_paper_value(paper, item->claim);
-    text_add(page, "<tr data-verdict=\"%s\"><td class=name data-label=claim>", verdict);
+    text_add(page, "<tr data-verdict=\"%s\"><td class=name data-label=claim>",
+             verdict_name(item->verdict.kind));
     html_add(page, item->claim->id);
     text_add(page, "%s</td>", item->claim->is_required ? " <abbr title=required>*</abbr>" : "");
     text_add(page, "<td data-label=verdict><span class=\"verdict v%d\">%s</span></td>",
-             (int)item->verdict.kind, verdict);
+             (int)item->verdict.kind, words);
     text_add(page, "<td class=text data-label=text>");
     html_add(page, item->claim->text);
     text_add(page, "<br><span class=faint>");
