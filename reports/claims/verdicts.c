@@ -290,13 +290,14 @@ static void add_row(fm_text *csv, const fm_claim_result *item)
     verdict_words(words, &item->verdict);
     text_add(csv, ",%s,", words);
     csv_add(csv, item->verdict.reason);
-    text_add(csv, "\n");
+    text_add(csv, ",%s\n", claim_basis_name(item->claim->basis));
 }
 
 fm_status verdicts_write(const fm_claim_results *verdicts, const char *path, fm_error *err)
 {
     fm_text csv = { 0 };
-    text_add(&csv, "claim,paper,figure,text,device,measured,low,high,paper_value,verdict,reason\n");
+    text_add(&csv, "claim,paper,figure,text,device,measured,low,high,paper_value,verdict,reason,"
+                   "basis\n");
     for (size_t i = 0; i < verdicts->count; i++)
         add_row(&csv, &verdicts->items[i]);
     const fm_status status = csv.failed ? fm_fail(err, FM_NO_MEMORY, "%s", path)
@@ -314,10 +315,21 @@ size_t verdicts_required_failed(const fm_claim_results *verdicts)
     return failed;
 }
 
-size_t verdicts_count(const fm_claim_results *verdicts, fm_verdict_kind kind)
+fm_verdict_counts verdicts_count(const fm_claim_results *verdicts, const char *paper)
 {
-    size_t count = 0;
-    for (size_t i = 0; i < verdicts->count; i++)
-        count += verdicts->items[i].verdict.kind == kind;
-    return count;
+    fm_verdict_counts counts = { 0 };
+    for (size_t i = 0; i < verdicts->count; i++) {
+        const fm_claim_result *item = &verdicts->items[i];
+        if (paper == NULL || strcmp(item->figure->paper, paper) == 0)
+            counts.counts[item->claim->basis][item->verdict.kind]++;
+    }
+    return counts;
+}
+
+bool verdict_counts_has(const fm_verdict_counts *counts, fm_claim_basis basis)
+{
+    for (int kind = 0; kind < FM_VERDICT_COUNT; kind++)
+        if (counts->counts[basis][kind] > 0)
+            return true;
+    return false;
 }

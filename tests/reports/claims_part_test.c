@@ -136,6 +136,38 @@ static void another_scene_than_the_figures_is_no_plain_holds(void **state)
     }
 }
 
+/* Five claims of four bases; all but one hold. */
+static void verdicts_are_counted_by_what_claims_rest_on(void **state)
+{
+    (void)state;
+    fixture with;
+    fm_claim_results verdicts;
+    const fakes rows = part_of(10);
+    fixture_open(&with, &rows,
+                 "id: f-1\npaper: f\ntitle: t\n"
+                 "charts:\n  - { id: c, title: c, x: k, y: frame_ms }\nclaims:\n"
+                 "  - { id: F-1, text: t, of: { method: a }, at_most: 99 }\n"
+                 "  - { id: F-2, text: t, basis: plot, of: { method: a }, at_most: 99 }\n"
+                 "  - { id: F-3, text: t, basis: plot, of: { method: a }, at_most: 9 }\n"
+                 "  - { id: F-4, text: t, basis: tuned, of: { method: a }, at_most: 99 }\n"
+                 "  - { id: F-5, text: t, basis: calibrated, of: { method: a }, at_most: 99 }\n",
+                 NULL);
+    const fm_paper_figure *const figures[] = { with.figure };
+    const fm_verdicts_desc desc = { with.results, NULL, figures, 1 };
+    assert_int_equal(verdicts_make(&verdicts, &desc, NULL), FM_OK);
+    const fm_verdict_counts all = verdicts_count(&verdicts, NULL);
+    const fm_verdict_counts other = verdicts_count(&verdicts, "g");
+    assert_int_equal(all.counts[FM_BASIS_STATED][FM_VERDICT_HOLDS], 1);
+    assert_int_equal(all.counts[FM_BASIS_PLOT][FM_VERDICT_HOLDS], 1);
+    assert_int_equal(all.counts[FM_BASIS_PLOT][FM_VERDICT_FAILS], 1);
+    assert_int_equal(all.counts[FM_BASIS_TUNED][FM_VERDICT_HOLDS], 1);
+    assert_int_equal(all.counts[FM_BASIS_CALIBRATED][FM_VERDICT_HOLDS], 1);
+    assert_false(verdict_counts_has(&all, FM_BASIS_PREDICTED));
+    assert_false(verdict_counts_has(&other, FM_BASIS_STATED));
+    verdicts_free(&verdicts);
+    fixture_close(&with);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -146,6 +178,7 @@ int main(void)
         cmocka_unit_test(a_method_that_was_not_run_is_left_out),
         cmocka_unit_test(a_number_that_memory_lacks_is_left_out),
         cmocka_unit_test(another_scene_than_the_figures_is_no_plain_holds),
+        cmocka_unit_test(verdicts_are_counted_by_what_claims_rest_on),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
