@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "memory_points.h"
 #include "read/figure_cases.h"
+#include "seeds.h"
 #include "summary_points.h"
 
 /* What the functions below share. */
@@ -91,6 +92,9 @@ static fm_status make_points(fm_claim_points *points, const fm_claim *claim,
             summary_points_add(points, claim, rows, i);
     if (points->failed)
         return fm_fail(err, FM_NO_MEMORY, "claim %s: %zu points", claim->id, points->count);
+    seeds_join(points, claim);
+    if (points->failed)
+        return fm_fail(err, FM_NO_MEMORY, "claim %s: seeds", claim->id);
     claim_points_sort(points, claim);
     return FM_OK;
 }

@@ -40,7 +40,7 @@
  * widens each of them; the default is 0):
  *   bound     every point is within the bounds
  *   any       at least one point is
- *   mean      the arithmetic mean of all points is; with several seeds its interval is over theirs
+ *   mean      the arithmetic mean of all points is
  *   order     of: a list of selections; at each workload each is not above the next, but by the
  *             tolerance
  *   monotone  along, goes (rises or falls): no step goes back by more than the tolerance, and the
@@ -51,6 +51,8 @@
  *             the middle of `along`, over the middle value): least squares, within the bounds
  *   spread    greatest over least point, within the bounds
  *   images    of, over: the greatest difference of the two images' pixels, within the bounds
+ * With several seeds a point is their mean, and its interval has the spread between them; but each
+ * seed is a point of its own where `equals` stands without a tolerance, or the claim is required.
  * Points that differ in more than `along` (and `across`, columns that change with it) are judged
  * apart; the worst of them decides.
  *
