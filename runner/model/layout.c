@@ -11,6 +11,8 @@ typedef struct layout_rule {
     const char *order[4];
 } layout_rule;
 
+static const char *const published[] = { "image", "layer" };
+
 static const layout_rule rules[] = {
     { .is_software = false, .is_bounded = true, .order = { "image", "tile", "layer", "pixel" } },
     { .is_software = false, .is_bounded = false, .order = { "tile", "layer", "pixel", "image" } },
@@ -30,9 +32,15 @@ fm_layout_case layout_case(const fm_method_desc *method, const fm_settings *sett
                                               settings->cull_memory == FM_CULL_MEMORY_SHARED };
 }
 
+bool layout_is_published(const char *option, const char *value)
+{
+    return strcmp(option, LAYOUT_OPTION) == 0 && strcmp(value, LAYOUT_PUBLISHED) == 0;
+}
+
 bool layout_is_open(const fm_choice *choice)
 {
-    return strcmp(choice->name, LAYOUT_OPTION) == 0 && strcmp(choice->value, LAYOUT_AUTO) == 0;
+    return layout_is_published(choice->name, choice->value) ||
+           (strcmp(choice->name, LAYOUT_OPTION) == 0 && strcmp(choice->value, LAYOUT_AUTO) == 0);
 }
 
 /* What formulas ask: the workload's runner. */
@@ -84,11 +92,13 @@ static void resolve(fm_choice *choice, const asked_choices *asked, const fm_layo
                     const fm_layout_device *device)
 {
     const fm_option *option = option_find(of->method, choice->name);
-    const layout_rule *rule = rule_for(of->method, device);
-    for (size_t i = 0; i < ORDER_LENGTH; i++) {
-        if (!option_has_value(option, rule->order[i]))
+    const bool is_published = layout_is_published(choice->name, choice->value);
+    const char *const *order = is_published ? published : rule_for(of->method, device)->order;
+    const size_t length = is_published ? sizeof published / sizeof published[0] : ORDER_LENGTH;
+    for (size_t i = 0; i < length; i++) {
+        if (!option_has_value(option, order[i]))
             continue;
-        snprintf(choice->value, sizeof choice->value, "%s", rule->order[i]);
+        snprintf(choice->value, sizeof choice->value, "%s", order[i]);
         if (fits(asked, of, device))
             return;
     }

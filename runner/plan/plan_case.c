@@ -165,9 +165,13 @@ static bool know_device(const fm_plan_point *point)
 static void work_out_layout(fm_case *made, const fm_plan_point *point)
 {
     const fm_layout_case of = layout_case(point->entry->plugin->method, &made->settings, 0);
-    for (size_t i = 0; i < made->choice_count; i++)
-        made->has_auto_layout |= layout_is_open(&made->choices[i]);
-    if (made->has_auto_layout && know_device(point))
+    bool is_open = false;
+    for (size_t i = 0; i < made->choice_count; i++) {
+        const bool is_open_too = layout_is_open(&made->choices[i]);
+        is_open |= is_open_too;
+        made->has_auto_layout |= is_open_too && strcmp(made->choices[i].value, LAYOUT_AUTO) == 0;
+    }
+    if (is_open && know_device(point))
         layout_resolve(made->choices, made->choice_count, &of, &point->device_memo->device);
 }
 

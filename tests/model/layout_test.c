@@ -137,6 +137,23 @@ static void a_method_has_only_its_own_layouts(void **state)
     assert_string_equal(resolved(&method, 8, &software), "swizzled");
 }
 
+/* Also on software, whatever the method's traits; without the image the same array in a buffer. */
+static void the_published_layout_is_an_image_or_layers(void **state)
+{
+    (void)state;
+    const fm_method_desc method = make_method(0);
+    const fm_choice given = { "layout", "published" };
+    fm_layout_device device = software;
+    fm_choice choices[FM_MAX_OPTIONS];
+    const fm_layout_case of = { .method = &method, .width_px = 3, .height_px = 2, .k = 8 };
+    assert_true(layout_is_open(&given));
+    layout_choices(choices, &given, 1, &of, &device);
+    assert_string_equal(choices[0].value, "image");
+    device.image_layers = 7;
+    layout_choices(choices, &given, 1, &of, &device);
+    assert_string_equal(choices[0].value, "layer");
+}
+
 static void a_layout_that_was_chosen_stays(void **state)
 {
     (void)state;
@@ -158,6 +175,7 @@ int main(void)
         cmocka_unit_test(an_image_that_a_device_lacks_is_not_taken),
         cmocka_unit_test(a_shared_map_keeps_arrays_in_buffers),
         cmocka_unit_test(a_method_has_only_its_own_layouts),
+        cmocka_unit_test(the_published_layout_is_an_image_or_layers),
         cmocka_unit_test(a_layout_that_was_chosen_stays),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
