@@ -67,9 +67,11 @@ static void explain(fm_verdict *verdict, const verdicts_job *job, const fm_claim
     static const char *const needs[] = { [FM_CLAIM_ANY_DEVICE] = "",
                                          [FM_CLAIM_GPU] = "needs a GPU",
                                          [FM_CLAIM_HAZARDS] =
-                                             "needs a GPU, or feed compute-adjacent" };
+                                             "needs a GPU, or feed compute-adjacent",
+                                         [FM_CLAIM_SOFTWARE] = "needs a software rasteriser" };
     *verdict = (fm_verdict){ .kind = FM_VERDICT_NOT_TESTABLE, .measured = { NAN, NAN, NAN } };
-    if (claim->where != FM_CLAIM_ANY_DEVICE && is_software(job, device))
+    if (claim->where != FM_CLAIM_ANY_DEVICE &&
+        is_software(job, device) == (claim->where != FM_CLAIM_SOFTWARE))
         snprintf(verdict->reason, sizeof verdict->reason, "%s%s%s", needs[claim->where],
                  claim->why[0] != '\0' ? ": " : "", claim->why);
     else if (points->missing_count > 0)

@@ -203,7 +203,7 @@ static fm_status read_between(fm_claim *claim, const fm_yaml *map, const fm_yaml
 
 static fm_status read_head(fm_claim *claim, const fm_yaml *map, const fm_yaml_place *at)
 {
-    static const char *const places[] = { "any", "gpu", "hazards" };
+    static const char *const places[] = { "any", "gpu", "hazards", "software" };
     int where = 0, form = 0, basis = 0;
     fm_status status = field_check_keys(map, "a claim", WORDS(claim_keys), at);
     if (status == FM_OK)

@@ -5,8 +5,10 @@
  *       text: Heap overtakes Array between k = 16 and 32
  *       source: Fig. 5                where the paper says so
  *       where: any                    or gpu: rows of software devices do not count; or hazards:
- *                                     on a software device only rows of feed compute-adjacent do
- *       why: ...                      gpu, hazards: why a software device cannot say
+ *                                     on a software device only rows of feed compute-adjacent do;
+ *                                     or software: only its rows do, for there fragments come one
+ *                                     after the other
+ *       why: ...                      why the other devices cannot say
  *       basis: stated                 what it rests on: a sentence of the paper; plot: read off a
  *                                     plot, of which no sentence speaks; ours: our question or
  *                                     bound. Of a model's numbers: predicted; tuned: a parameter
@@ -90,7 +92,12 @@ typedef enum fm_claim_form {
     FM_CLAIM_FORM_COUNT
 } fm_claim_form;
 
-typedef enum fm_claim_where { FM_CLAIM_ANY_DEVICE, FM_CLAIM_GPU, FM_CLAIM_HAZARDS } fm_claim_where;
+typedef enum fm_claim_where {
+    FM_CLAIM_ANY_DEVICE,
+    FM_CLAIM_GPU,
+    FM_CLAIM_HAZARDS,
+    FM_CLAIM_SOFTWARE
+} fm_claim_where;
 typedef enum fm_claim_basis {
     FM_BASIS_STATED,
     FM_BASIS_PLOT,
