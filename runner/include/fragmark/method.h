@@ -135,8 +135,8 @@ typedef enum fm_marker {
  * stands in the column `options`.
  * The value `auto` of an option `layout` is the runner's: it means the fastest of the others on the
  * device, of `image`, `tile`, `layer` and `pixel` those that the method has, and never an image
- * that the device lacks. Cases, ids and shaders have what it means. So it is with `published`, which
- * no method need list: `image`, or `layer` where the device lacks the image. */
+ * that the device lacks. Cases, ids and shaders have what it means. So it is with `published`,
+ * which no method need list: `image`, or `layer` where the device lacks the image. */
 typedef struct fm_option {
     const char *name; /* lower-case letters, digits, '-' and '_'; no key of the runner */
     const char *values[FM_MAX_OPTION_VALUES]; /* the first is the default; letters as in a name, or
