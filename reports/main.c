@@ -138,6 +138,21 @@ static void drop_own_reference(fm_result_files **reference, const fm_result_file
     *reference = NULL;
 }
 
+/* A line for each basis: what was calibrated to hold adds nothing to what holds. */
+static void tell_claims(const fm_claim_results *verdicts)
+{
+    const fm_verdict_counts counts = verdicts_count(verdicts, NULL);
+    for (int basis = 0; basis < FM_BASIS_COUNT; basis++) {
+        if (!verdict_counts_has(&counts, (fm_claim_basis)basis))
+            continue;
+        fprintf(stderr, "claims, %s:", claim_basis_name((fm_claim_basis)basis));
+        for (int kind = 0; kind < FM_VERDICT_COUNT; kind++)
+            fprintf(stderr, "%s %zu %s", kind == 0 ? "" : ",", counts.counts[basis][kind],
+                    verdict_name((fm_verdict_kind)kind));
+        fputc('\n', stderr);
+    }
+}
+
 static int tell(const arguments *given, const fm_report_outcome *outcome,
                 const fm_claim_results *verdicts, fm_error *err)
 {
@@ -145,11 +160,8 @@ static int tell(const arguments *given, const fm_report_outcome *outcome,
     fprintf(stderr, "%zu chart%s, %zu picture%s", outcome->chart_count,
             outcome->chart_count == 1 ? "" : "s", outcome->picture_count,
             outcome->picture_count == 1 ? "" : "s");
-    for (int kind = 0; kind < FM_VERDICT_COUNT && verdicts->count > 0; kind++)
-        fprintf(stderr, "%s %zu %s", kind == 0 ? "; claims:" : ",",
-                verdicts_count(verdicts, (fm_verdict_kind)kind),
-                verdict_name((fm_verdict_kind)kind));
     fputc('\n', stderr);
+    tell_claims(verdicts);
     printf("%s/report.html\n", given->directory);
     if (outcome->unexplained_count > 0)
         fprintf(stderr,

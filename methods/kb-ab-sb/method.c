@@ -22,6 +22,8 @@ const fm_method_desc fm_method = {
           .help = "all counters from the pool's front, or half of them from its end" },
         { .name = "select", .values = { "registers", "heap", "farthest" },
           .help = "the k nearest so far: in order, as a heap, or as the paper's farthest one" },
+        { .name = "count", .values = { "tessellated", "flat" },
+          .help = "the counting pass as all others, or without tessellation (flat layers)" },
     },
     .resources = {
         { .name = "counters", .extent = { .per_pixel = 1 }, .used = { .per_pixel = 1 } },
@@ -33,7 +35,8 @@ const fm_method_desc fm_method = {
     .totals = { { .name = "fragments", .resource = "bins", .sum = true, .pass = "reference" } },
     .passes = {
         { .name = "clear", .kind = FM_PASS_CLEAR, .writes = { "counters", "bins" } },
-        { .name = "count", .shader = "exact/count.glsl", .writes = { "counters" } },
+        { .name = "count", .shader = "exact/count.glsl", .writes = { "counters" },
+          .flat_tessellation = true, .flat_option = "count" },
         { .name = "reference", .kind = FM_PASS_PIXELS, .shader = "s-buffer/reference.glsl",
           .reads = { "counters" }, .writes = { "addresses", "bins" } },
         { .name = "map", .kind = FM_PASS_PIXELS, .shader = "s-buffer/map.glsl",

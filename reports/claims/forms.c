@@ -2,10 +2,12 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "curves.h"
 #include "read/picture.h"
+#include "seeds.h"
 
 static fm_status judge_bound(judging *to, fm_error *err)
 {
@@ -47,42 +49,34 @@ static fm_interval mean_of(size_t *count, const fm_claim_points *points, const c
     return mean;
 }
 
-/* Seeds are draws of the same inputs: their means scatter, and so, by Student's t, does what is
- * said of all. false: there is one seed, of which the interval says nothing. */
-static bool widen_by_seeds(fm_interval *mean, fm_interval *range, size_t *seeds,
-                           const fm_claim_points *points)
+/* The mean of each seed; returns how many they are. range: from the least to the greatest. */
+static size_t seed_means(double *values, fm_interval *range, const fm_claim_points *points)
 {
-    double sum = 0.0, squares = 0.0;
-    size_t of_seed;
-    *range = (fm_interval){ mean->median, INFINITY, -INFINITY };
-    *seeds = 0;
+    size_t seeds = 0, of_seed;
+    *range = (fm_interval){ NAN, INFINITY, -INFINITY };
     for (size_t i = 0; i < points->count; i++) {
         if (!is_first_of_seed(points, i))
             continue;
         const double value = mean_of(&of_seed, points, seed_of(&points->points[i])).median;
         range->low = fmin(range->low, value);
         range->high = fmax(range->high, value);
-        sum += value;
-        squares += value * value;
-        (*seeds)++;
+        values[seeds++] = value;
     }
-    if (*seeds < 2)
-        return false;
-    const double n = (double)*seeds, variance = fmax(squares - sum * sum / n, 0.0) / (n - 1.0);
-    const double half = stats_student(*seeds - 1) * sqrt(variance / n);
-    mean->low = mean->median - hypot(half, mean->median - mean->low);
-    mean->high = mean->median + hypot(half, mean->high - mean->median);
-    return true;
+    return seeds;
 }
 
 static fm_status judge_mean(judging *to, fm_error *err)
 {
-    size_t count = 0, seeds = 0;
-    fm_interval mean = mean_of(&count, to->points, NULL), range;
-    (void)err;
-    const bool has_seeds = widen_by_seeds(&mean, &range, &seeds, to->points);
-    judging_value(to, mean, NULL, NULL);
-    if (has_seeds)
+    size_t count = 0;
+    const fm_interval mean = mean_of(&count, to->points, NULL);
+    fm_interval range;
+    double *values = calloc(to->points->count, sizeof *values);
+    if (values == NULL)
+        return fm_fail(err, FM_NO_MEMORY, "claim %s: %zu points", to->claim->id, count);
+    const size_t seeds = seed_means(values, &range, to->points);
+    judging_value(to, seeds_widen(mean, values, seeds), NULL, NULL);
+    free(values);
+    if (seeds > 1)
         judging_note(to, "the mean of %zu; %zu seeds: %.4g to %.4g", count, seeds, range.low,
                      range.high);
     else
@@ -120,7 +114,7 @@ static fm_status judge_images(judging *to, fm_error *err)
         const fm_status status = picture_compare(&apart, to->rows->results->directory,
                                                  point->result->id, point->other->id, err);
         if (status == FM_UNSUPPORTED) {
-            judging_note(to, "a picture was not kept");
+            judging_skip(to, 1, "a picture was not kept");
             continue;
         }
         if (status != FM_OK)

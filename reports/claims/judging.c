@@ -20,6 +20,7 @@ static int rank(fm_verdict_kind kind)
 {
     static const int ranks[FM_VERDICT_COUNT] = { [FM_VERDICT_NOT_TESTABLE] = 0,
                                                  [FM_VERDICT_HOLDS] = 1,
+                                                 [FM_VERDICT_IN_PART] = 1,
                                                  [FM_VERDICT_UNCLEAR] = 2,
                                                  [FM_VERDICT_FAILS] = 3 };
     return ranks[kind];
@@ -70,13 +71,26 @@ void judging_step(judging *to, const fm_claim_point *point, const fm_claim_point
     judging_rise(to, point, next, -to->claim->tolerance * fabs(point->value.median));
 }
 
+static void keep_note(judging *to, const char *format, va_list arguments)
+{
+    if (to->note[0] == '\0')
+        vsnprintf(to->note, sizeof to->note, format, arguments);
+}
+
 void judging_note(judging *to, const char *format, ...)
 {
     va_list arguments;
-    if (to->note[0] != '\0')
-        return;
     va_start(arguments, format);
-    vsnprintf(to->note, sizeof to->note, format, arguments);
+    keep_note(to, format, arguments);
+    va_end(arguments);
+}
+
+void judging_skip(judging *to, size_t points, const char *format, ...)
+{
+    va_list arguments;
+    to->skipped += points;
+    va_start(arguments, format);
+    keep_note(to, format, arguments);
     va_end(arguments);
 }
 
@@ -138,10 +152,37 @@ static void explain_unclear(fm_verdict *verdict, const judging *to)
             value->low < bounds[0] ? bounds[0] : bounds[1]);
 }
 
+static size_t count_incomplete(const fm_claim_points *points)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < points->count; i++)
+        count += points->points[i].is_incomplete;
+    return count;
+}
+
+/* What was left out might have decided otherwise: of all points against a claim that holds, of any
+ * point for one that fails. */
+static void count_points(fm_verdict *verdict, const judging *to)
+{
+    const fm_claim_points *points = to->points;
+    const bool is_any = to->claim->form == FM_CLAIM_ANY;
+    size_t left_out = to->skipped + count_incomplete(points);
+    verdict->total = points->count + points->missing_count;
+    verdict->judged = points->count - (left_out < points->count ? left_out : points->count);
+    if (verdict->judged == verdict->total)
+        return;
+    if (verdict->kind == FM_VERDICT_HOLDS && !is_any)
+        verdict->kind = FM_VERDICT_IN_PART;
+    if (verdict->kind == FM_VERDICT_FAILS && is_any)
+        verdict->kind = FM_VERDICT_UNCLEAR;
+}
+
 void judging_end(fm_verdict *verdict, const judging *to)
 {
     size_t unknown = 0;
+    const size_t incomplete = count_incomplete(to->points);
     *verdict = (fm_verdict){ .kind = to->worst.kind, .measured = to->worst.measured };
+    count_points(verdict, to);
     if (to->count > 1)
         add(verdict, "%zu compared, %.4g to %.4g", to->count, to->least, to->greatest);
     name_deciders(verdict, to);
@@ -155,4 +196,7 @@ void judging_end(fm_verdict *verdict, const judging *to)
         add(verdict, "%s", to->note);
     if (to->points->missing_count > 0)
         add(verdict, "%zu left out (%s)", to->points->missing_count, to->points->missing);
+    if (incomplete > 0)
+        add(verdict, "%zu compared with fewer rows than are named (%s)", incomplete,
+            to->points->incomplete);
 }

@@ -57,6 +57,8 @@ bool match_takes(const fm_claim *claim, const fm_claim_rows *rows, size_t row)
         return false;
     if (claim->where == FM_CLAIM_GPU)
         return !result->is_software;
+    if (claim->where == FM_CLAIM_SOFTWARE)
+        return result->is_software;
     return claim->where != FM_CLAIM_HAZARDS || !result->is_software ||
            strcmp(result->feed, "compute-adjacent") == 0;
 }

@@ -1,6 +1,7 @@
 #include "memory_points.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "values.h"
@@ -42,10 +43,14 @@ void memory_points_add(fm_claim_points *points, const fm_claim *claim, const fm_
                      memory_partner(&claim->over_minus, rows, row);
         else if (claim->has_over)
             value /= memory_partner(&claim->over, rows, row);
-        if (isfinite(value))
+        if (!isfinite(value)) {
+            if (points->missing_count++ == 0)
+                snprintf(points->missing, sizeof points->missing, "memory.csv lacks a number");
+        } else {
             claim_points_add(points, &(fm_claim_point){ .value = interval_exact(value),
                                                         .x = NAN,
                                                         .row = row,
                                                         .selection = index });
+        }
     }
 }

@@ -12,6 +12,7 @@ typedef struct fm_claim_point {
     const fm_case_row *other;  /* of `over`; may be NULL */
     size_t row;                /* of memory.csv */
     size_t selection;          /* index in `of` */
+    bool is_incomplete;        /* of several rows to compare with, some have no value */
 } fm_claim_point;
 
 typedef struct fm_claim_points {
@@ -20,6 +21,7 @@ typedef struct fm_claim_points {
     bool failed;       /* out of memory while points were added */
     char missing[256]; /* why rows gave no point: the first reason; "": none was missing */
     size_t missing_count;
+    char incomplete[256]; /* why points are incomplete: the first reason */
 } fm_claim_points;
 
 /* Adds a point. Out of memory is remembered in `failed`. */

@@ -15,15 +15,28 @@ typedef struct points_job {
     const fm_claim_rows *rows;
 } points_job;
 
-/* A row of `of` gives no point: because of `result`, itself or the one it is compared with. */
-static void note_missing(points_job *job, const fm_case_row *result, const char *why)
+static void name_row(char text[256], const fm_case_row *result, const char *why)
 {
-    if (job->points->missing_count++ > 0)
-        return;
-    snprintf(job->points->missing, sizeof job->points->missing, "%.60s%s%.12g: %.120s",
+    snprintf(text, 256, "%.60s%s%.12g: %.120s",
              result->look.title != NULL ? result->look.title : result->method,
              isnan(result->k) ? " n " : " k ",
              isnan(result->k) ? result->metric[FM_METRIC_N] : result->k, why);
+}
+
+/* A row of `of` gives no point: because of `result`, itself or the one it is compared with. */
+static void note_missing(points_job *job, const fm_case_row *result, const char *why)
+{
+    if (job->points->missing_count++ == 0)
+        name_row(job->points->missing, result, why);
+}
+
+/* One of several rows that the point is compared with has no value. */
+static void note_incomplete(points_job *job, fm_claim_point *point, const fm_case_row *result,
+                            const char *why)
+{
+    point->is_incomplete = true;
+    if (job->points->incomplete[0] == '\0')
+        name_row(job->points->incomplete, result, why);
 }
 
 /* Why a row has no value. */
@@ -52,17 +65,24 @@ typedef struct partner {
     fm_interval value;
 } partner;
 
+/* Row i may be what `subject` is compared with. */
+static bool is_candidate(const points_job *job, const fm_claim_selection *selection,
+                         const fm_case_row *subject, size_t i)
+{
+    const fm_case_row *other = &job->rows->results->cases[i];
+    return match_takes(job->claim, job->rows, i) && match_row(selection, job->rows, i) &&
+           workload_same(subject, other, &selection->own_columns) &&
+           is_own_partner(selection, subject, other);
+}
+
 /* The row of `selection` for the workload of `subject`. */
 static partner find_partner(const points_job *job, const fm_claim_selection *selection,
                             const fm_case_row *subject)
 {
     partner best = { 0 };
-    const fm_text_list *own = &selection->own_columns;
     for (size_t i = 0; i < job->rows->results->count; i++) {
         partner one = { .result = &job->rows->results->cases[i] };
-        if (!match_takes(job->claim, job->rows, i) || !match_row(selection, job->rows, i) ||
-            !workload_same(subject, one.result, own) ||
-            !is_own_partner(selection, subject, one.result))
+        if (!is_candidate(job, selection, subject, i))
             continue;
         one.value = value_measured(selection, job->rows, one.result);
         one.failed = best.failed;
@@ -73,6 +93,31 @@ static partner find_partner(const points_job *job, const fm_claim_selection *sel
             best = one;
     }
     return best;
+}
+
+static bool has_value(const points_job *job, const fm_claim_selection *selection, size_t i)
+{
+    return isfinite(value_measured(selection, job->rows, &job->rows->results->cases[i]).median);
+}
+
+/* Of several methods to compare with, a row of one that has no value with any of its options; NULL:
+ * each has one. */
+static const fm_case_row *lacking(const points_job *job, const fm_claim_selection *selection,
+                                  const fm_case_row *subject)
+{
+    const fm_case_row *cases = job->rows->results->cases;
+    const size_t count = job->rows->results->count;
+    for (size_t i = 0; i < count; i++) {
+        if (!is_candidate(job, selection, subject, i) || has_value(job, selection, i))
+            continue;
+        bool is_found = false;
+        for (size_t j = 0; j < count && !is_found; j++)
+            is_found = strcmp(cases[i].method, cases[j].method) == 0 &&
+                       is_candidate(job, selection, subject, j) && has_value(job, selection, j);
+        if (!is_found)
+            return &cases[i];
+    }
+    return NULL;
 }
 
 /* One operand for the point's row; false: there is none. */
@@ -86,6 +131,9 @@ static bool operand(fm_interval *value, fm_claim_point *point, points_job *job,
     const partner found = find_partner(job, selection, point->result);
     *value = found.value;
     point->other = found.result;
+    const fm_case_row *lacks = found.failed != NULL ? lacking(job, selection, point->result) : NULL;
+    if (found.result != NULL && lacks != NULL)
+        note_incomplete(job, point, lacks, why_missing(lacks));
     if (found.result != NULL)
         return true;
     if (found.failed != NULL)
@@ -148,6 +196,63 @@ static void add_point(fm_claim_points *to, const fm_claim_selection *selection,
     claim_points_add(to, point);
 }
 
+static bool has_method(const points_job *job, const char *method)
+{
+    for (size_t i = 0; i < job->rows->results->count; i++)
+        if (match_takes(job->claim, job->rows, i) &&
+            strcmp(job->rows->results->cases[i].method, method) == 0)
+            return true;
+    return false;
+}
+
+/* Of the methods that the selection itself names, one that no row here is of; NULL: there is none.
+ * *count: how many they are. */
+static const char *absent_method(size_t *count, const points_job *job,
+                                 const fm_claim_selection *selection)
+{
+    const char *first = NULL;
+    *count = 0;
+    for (size_t i = 0; i < selection->test_count; i++) {
+        const fm_yaml *value = selection->tests[i].value;
+        if (strcmp(selection->tests[i].key, "method") != 0 || value->kind != FM_YAML_LIST ||
+            !text_list_has(&selection->own_columns, "method"))
+            continue;
+        for (size_t j = 0; j < value->count; j++)
+            if (!has_method(job, value->items[j].text)) {
+                first = first != NULL ? first : value->items[j].text;
+                (*count)++;
+            }
+    }
+    return first;
+}
+
+/* What a claim says of several methods does not hold as a whole where one of them was not run. */
+static void note_absent(points_job *job, const fm_claim_selection *selection)
+{
+    const fm_claim *claim = job->claim;
+    const struct {
+        bool is_there;
+        const fm_claim_selection *selection;
+    } others[] = { { claim->has_minus, &claim->minus },
+                   { claim->has_over, &claim->over },
+                   { claim->has_over_minus, &claim->over_minus } };
+    size_t count;
+    const char *absent = absent_method(&count, job, selection);
+    if (absent != NULL && job->points->missing_count == 0)
+        snprintf(job->points->missing, sizeof job->points->missing, "no case of %.60s", absent);
+    job->points->missing_count += count;
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
+        absent = others[i].is_there ? absent_method(&count, job, others[i].selection) : NULL;
+        if (absent == NULL)
+            continue;
+        for (size_t j = 0; j < job->points->count; j++)
+            job->points->points[j].is_incomplete = true;
+        if (job->points->incomplete[0] == '\0')
+            snprintf(job->points->incomplete, sizeof job->points->incomplete, "no case of %.60s",
+                     absent);
+    }
+}
+
 void summary_points_add(fm_claim_points *points, const fm_claim *claim, const fm_claim_rows *rows,
                         size_t index)
 {
@@ -159,4 +264,6 @@ void summary_points_add(fm_claim_points *points, const fm_claim *claim, const fm
             evaluate(&point, &job, selection))
             add_point(points, selection, &point);
     }
+    if (points->count > 0)
+        note_absent(&job, selection);
 }

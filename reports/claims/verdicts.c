@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "memory_points.h"
 #include "read/figure_cases.h"
+#include "seeds.h"
 #include "summary_points.h"
 
 /* What the functions below share. */
@@ -66,9 +67,11 @@ static void explain(fm_verdict *verdict, const verdicts_job *job, const fm_claim
     static const char *const needs[] = { [FM_CLAIM_ANY_DEVICE] = "",
                                          [FM_CLAIM_GPU] = "needs a GPU",
                                          [FM_CLAIM_HAZARDS] =
-                                             "needs a GPU, or feed compute-adjacent" };
+                                             "needs a GPU, or feed compute-adjacent",
+                                         [FM_CLAIM_SOFTWARE] = "needs a software rasteriser" };
     *verdict = (fm_verdict){ .kind = FM_VERDICT_NOT_TESTABLE, .measured = { NAN, NAN, NAN } };
-    if (claim->where != FM_CLAIM_ANY_DEVICE && is_software(job, device))
+    if (claim->where != FM_CLAIM_ANY_DEVICE &&
+        is_software(job, device) == (claim->where != FM_CLAIM_SOFTWARE))
         snprintf(verdict->reason, sizeof verdict->reason, "%s%s%s", needs[claim->where],
                  claim->why[0] != '\0' ? ": " : "", claim->why);
     else if (points->missing_count > 0)
@@ -91,8 +94,40 @@ static fm_status make_points(fm_claim_points *points, const fm_claim *claim,
             summary_points_add(points, claim, rows, i);
     if (points->failed)
         return fm_fail(err, FM_NO_MEMORY, "claim %s: %zu points", claim->id, points->count);
+    seeds_join(points, claim);
+    if (points->failed)
+        return fm_fail(err, FM_NO_MEMORY, "claim %s: seeds", claim->id);
     claim_points_sort(points, claim);
     return FM_OK;
+}
+
+/* A row of a scene that no block of the figure has; NULL: there is none. */
+static const char *other_scene(const fm_paper_figure *figure, const fm_claim_points *points)
+{
+    for (size_t i = 0; i < points->count; i++) {
+        const fm_case_row *result = points->points[i].result;
+        if (result != NULL && figure->own_scenes.count > 0 &&
+            !text_list_has(&figure->own_scenes, result->scene))
+            return result->scene;
+    }
+    return NULL;
+}
+
+/* What holds on another scene than the paper's, or ours for it, is no plain "holds"; what fails
+ * there says nothing of the claim, unless it must hold everywhere. */
+static void place_verdict(fm_verdict *verdict, const fm_claim *claim, const char *scene)
+{
+    const size_t used = strlen(verdict->reason);
+    if (scene == NULL)
+        return;
+    verdict->is_elsewhere = true;
+    snprintf(verdict->reason + used, sizeof verdict->reason - used, "; on %.60s, %s%s", scene,
+             "which is no scene of this figure",
+             verdict->kind == FM_VERDICT_FAILS && !claim->is_required ? ": it fails there" : "");
+    if (verdict->kind == FM_VERDICT_HOLDS)
+        verdict->kind = FM_VERDICT_IN_PART;
+    else if (verdict->kind == FM_VERDICT_FAILS && !claim->is_required)
+        verdict->kind = FM_VERDICT_NOT_TESTABLE;
 }
 
 static fm_status judge_on(fm_verdict *verdict, const verdicts_job *job, const fm_claim *claim,
@@ -105,10 +140,12 @@ static fm_status judge_on(fm_verdict *verdict, const verdicts_job *job, const fm
                                  .figure = job->figure->id };
     choose_cases(job, device);
     fm_status status = make_points(&points, claim, &rows, job->err);
-    if (status == FM_OK && points.count > 0)
-        status = claim_judge(verdict, claim, &rows, &points, job->err);
-    else if (status == FM_OK)
+    if (status == FM_OK && points.count == 0)
         explain(verdict, job, claim, device, &points);
+    else if (status == FM_OK)
+        status = claim_judge(verdict, claim, &rows, &points, job->err);
+    if (status == FM_OK && points.count > 0)
+        place_verdict(verdict, claim, other_scene(job->figure, &points));
     claim_points_free(&points);
     return status;
 }
@@ -241,7 +278,7 @@ void claim_paper_value(char text[256], const fm_claim *claim)
 
 static void add_row(fm_text *csv, const fm_claim_result *item)
 {
-    char paper[256];
+    char paper[256], words[FM_VERDICT_WORDS_BYTES];
     const fm_interval *measured = &item->verdict.measured;
     const double numbers[] = { measured->median, measured->low, measured->high };
     const char *const texts[] = { item->claim->id, item->figure->paper, item->figure->id,
@@ -256,15 +293,17 @@ static void add_row(fm_text *csv, const fm_claim_result *item)
         text_add(csv, ",");
     }
     csv_add(csv, paper);
-    text_add(csv, ",%s,", verdict_name(item->verdict.kind));
+    verdict_words(words, &item->verdict);
+    text_add(csv, ",%s,", words);
     csv_add(csv, item->verdict.reason);
-    text_add(csv, "\n");
+    text_add(csv, ",%s\n", claim_basis_name(item->claim->basis));
 }
 
 fm_status verdicts_write(const fm_claim_results *verdicts, const char *path, fm_error *err)
 {
     fm_text csv = { 0 };
-    text_add(&csv, "claim,paper,figure,text,device,measured,low,high,paper_value,verdict,reason\n");
+    text_add(&csv, "claim,paper,figure,text,device,measured,low,high,paper_value,verdict,reason,"
+                   "basis\n");
     for (size_t i = 0; i < verdicts->count; i++)
         add_row(&csv, &verdicts->items[i]);
     const fm_status status = csv.failed ? fm_fail(err, FM_NO_MEMORY, "%s", path)
@@ -282,10 +321,21 @@ size_t verdicts_required_failed(const fm_claim_results *verdicts)
     return failed;
 }
 
-size_t verdicts_count(const fm_claim_results *verdicts, fm_verdict_kind kind)
+fm_verdict_counts verdicts_count(const fm_claim_results *verdicts, const char *paper)
 {
-    size_t count = 0;
-    for (size_t i = 0; i < verdicts->count; i++)
-        count += verdicts->items[i].verdict.kind == kind;
-    return count;
+    fm_verdict_counts counts = { 0 };
+    for (size_t i = 0; i < verdicts->count; i++) {
+        const fm_claim_result *item = &verdicts->items[i];
+        if (paper == NULL || strcmp(item->figure->paper, paper) == 0)
+            counts.counts[item->claim->basis][item->verdict.kind]++;
+    }
+    return counts;
+}
+
+bool verdict_counts_has(const fm_verdict_counts *counts, fm_claim_basis basis)
+{
+    for (int kind = 0; kind < FM_VERDICT_COUNT; kind++)
+        if (counts->counts[basis][kind] > 0)
+            return true;
+    return false;
 }

@@ -41,11 +41,18 @@ fm_status verdicts_make(fm_claim_results *verdicts, const fm_verdicts_desc *desc
 void verdicts_free(fm_claim_results *verdicts);
 
 /* Writes claims.csv, whole or not at all. FM_IO, FM_NO_MEMORY. Its columns:
- * claim,paper,figure,text,device,measured,low,high,paper_value,verdict,reason */
+ * claim,paper,figure,text,device,measured,low,high,paper_value,verdict,reason,basis */
 fm_status verdicts_write(const fm_claim_results *verdicts, const char *path, fm_error *err);
 
-/* How many verdicts are of that kind, those of the reference included. */
-size_t verdicts_count(const fm_claim_results *verdicts, fm_verdict_kind kind);
+/* Verdicts by what their claims rest on, and by kind, those of the reference included. */
+typedef struct fm_verdict_counts {
+    size_t counts[FM_BASIS_COUNT][FM_VERDICT_COUNT];
+} fm_verdict_counts;
+
+/* paper: of its figures alone; NULL: of all. */
+fm_verdict_counts verdicts_count(const fm_claim_results *verdicts, const char *paper);
+/* Whether any verdict is of that basis. */
+bool verdict_counts_has(const fm_verdict_counts *counts, fm_claim_basis basis);
 
 /* How many required claims fail on the results' own devices. */
 size_t verdicts_required_failed(const fm_claim_results *verdicts);

@@ -12,8 +12,8 @@ enum { DIGITS = 4 };
 
 /* The colours of verdicts on claims (page.css): holds, unclear, fails, not testable. */
 static const int verdict_class[] = {
-    [FM_COMPARED_SLOWER] = 2, [FM_COMPARED_UNCLEAR] = 1, [FM_COMPARED_SAME] = 0,
-    [FM_COMPARED_FASTER] = 0, [FM_COMPARED_UNTIMED] = 3,
+    [FM_COMPARED_SLOWER] = 3, [FM_COMPARED_UNCLEAR] = 2, [FM_COMPARED_SAME] = 0,
+    [FM_COMPARED_FASTER] = 0, [FM_COMPARED_UNTIMED] = 4,
 };
 
 static void add_cell(fm_text *page, const char *text)

@@ -10,9 +10,10 @@
 #define WORDS(list) (list), sizeof(list) / sizeof((list)[0])
 
 static const char *const claim_keys[] = {
-    "id",   "text",    "source", "where",    "why",     "required", "paper",     "plot",
-    "form", "of",      "minus",  "over",     "along",   "across",   "level",     "between",
-    "goes", "extreme", "scale",  "at_least", "at_most", "equals",   "tolerance", "over_minus",
+    "id",     "text",      "source",     "where",   "why",   "required", "paper",
+    "plot",   "form",      "of",         "minus",   "over",  "along",    "across",
+    "level",  "between",   "goes",       "extreme", "scale", "at_least", "at_most",
+    "equals", "tolerance", "over_minus", "basis",
 };
 static const char *const forms[FM_CLAIM_FORM_COUNT] = {
     [FM_CLAIM_BOUND] = "bound",       [FM_CLAIM_ANY] = "any",
@@ -21,6 +22,17 @@ static const char *const forms[FM_CLAIM_FORM_COUNT] = {
     [FM_CLAIM_PEAK] = "peak",         [FM_CLAIM_SLOPE] = "slope",
     [FM_CLAIM_SPREAD] = "spread",     [FM_CLAIM_IMAGES] = "images",
 };
+
+static const char *const bases[FM_BASIS_COUNT] = {
+    [FM_BASIS_STATED] = "stated", [FM_BASIS_PLOT] = "plot",
+    [FM_BASIS_OURS] = "ours",     [FM_BASIS_PREDICTED] = "predicted",
+    [FM_BASIS_TUNED] = "tuned",   [FM_BASIS_CALIBRATED] = "calibrated",
+};
+
+const char *claim_basis_name(fm_claim_basis basis)
+{
+    return bases[basis];
+}
 
 /* What a form cannot do without. */
 static const struct {
@@ -191,8 +203,8 @@ static fm_status read_between(fm_claim *claim, const fm_yaml *map, const fm_yaml
 
 static fm_status read_head(fm_claim *claim, const fm_yaml *map, const fm_yaml_place *at)
 {
-    static const char *const places[] = { "any", "gpu", "hazards" };
-    int where = 0, form = 0;
+    static const char *const places[] = { "any", "gpu", "hazards", "software" };
+    int where = 0, form = 0, basis = 0;
     fm_status status = field_check_keys(map, "a claim", WORDS(claim_keys), at);
     if (status == FM_OK)
         status = field_text(&claim->id, map, "id", true, at);
@@ -212,8 +224,11 @@ static fm_status read_head(fm_claim *claim, const fm_yaml *map, const fm_yaml_pl
         status = field_word(&where, map, "where", WORDS(places), at);
     if (status == FM_OK)
         status = field_word(&form, map, "form", WORDS(forms), at);
+    if (status == FM_OK)
+        status = field_word(&basis, map, "basis", WORDS(bases), at);
     claim->where = (fm_claim_where)where;
     claim->form = (fm_claim_form)form;
+    claim->basis = (fm_claim_basis)basis;
     return status;
 }
 

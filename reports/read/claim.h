@@ -5,8 +5,15 @@
  *       text: Heap overtakes Array between k = 16 and 32
  *       source: Fig. 5                where the paper says so
  *       where: any                    or gpu: rows of software devices do not count; or hazards:
- *                                     on a software device only rows of feed compute-adjacent do
- *       why: ...                      gpu, hazards: why a software device cannot say
+ *                                     on a software device only rows of feed compute-adjacent do;
+ *                                     or software: only its rows do, for there fragments come one
+ *                                     after the other
+ *       why: ...                      why the other devices cannot say
+ *       basis: stated                 what it rests on: a sentence of the paper; plot: read off a
+ *                                     plot, of which no sentence speaks; ours: our question or
+ *                                     bound. Of a model's numbers: predicted; tuned: a parameter
+ *                                     was chosen so; calibrated: inputs were made so. Verdicts are
+ *                                     counted apart by it
  *       required: true                if it fails, the exit code is 1
  *       paper: 24                     the paper's value, a number or a sentence
  *       plot: 8.9                     what the paper's own plot has, where that differs
@@ -35,7 +42,7 @@
  * widens each of them; the default is 0):
  *   bound     every point is within the bounds
  *   any       at least one point is
- *   mean      the arithmetic mean of all points is; with several seeds its interval is over theirs
+ *   mean      the arithmetic mean of all points is
  *   order     of: a list of selections; at each workload each is not above the next, but by the
  *             tolerance
  *   monotone  along, goes (rises or falls): no step goes back by more than the tolerance, and the
@@ -46,11 +53,18 @@
  *             the middle of `along`, over the middle value): least squares, within the bounds
  *   spread    greatest over least point, within the bounds
  *   images    of, over: the greatest difference of the two images' pixels, within the bounds
+ * With several seeds a point is their mean, and its interval has the spread between them; but each
+ * seed is a point of its own where `equals` stands without a tolerance, or the claim is required.
  * Points that differ in more than `along` (and `across`, columns that change with it) are judged
  * apart; the worst of them decides.
  *
  * A verdict is `holds` or `fails` only if the whole 95 % interval agrees, else `unclear`; `not
- * testable here` when there is no point. Intervals are by launches (base/stats.h). A time, or a
+ * testable here` when there is no point. Where rows gave no result, a curve had too few points, or
+ * a method that the claim lists was not run, it `holds for 3 of 10 points`; what fails, fails. Of
+ * form any it is the other way round: one point is enough to hold, and not all failing is unclear.
+ * On a scene that no block of the figure's `run` and `large` has (--smoke and --scene put it there)
+ * it `holds on another scene`; what fails there is `not testable here`, unless it is required.
+ * Intervals are by launches (base/stats.h). A time, or a
  * ratio or rate of times, has none if there was one launch, and a claim that hangs on it is
  * unclear. Bytes, counts, errors and modelled numbers are exact, and need one launch only; which
  * numbers are times says `is_timed` in model/metrics.c. */
@@ -78,7 +92,22 @@ typedef enum fm_claim_form {
     FM_CLAIM_FORM_COUNT
 } fm_claim_form;
 
-typedef enum fm_claim_where { FM_CLAIM_ANY_DEVICE, FM_CLAIM_GPU, FM_CLAIM_HAZARDS } fm_claim_where;
+typedef enum fm_claim_where {
+    FM_CLAIM_ANY_DEVICE,
+    FM_CLAIM_GPU,
+    FM_CLAIM_HAZARDS,
+    FM_CLAIM_SOFTWARE
+} fm_claim_where;
+typedef enum fm_claim_basis {
+    FM_BASIS_STATED,
+    FM_BASIS_PLOT,
+    FM_BASIS_OURS,
+    FM_BASIS_PREDICTED,
+    FM_BASIS_TUNED,
+    FM_BASIS_CALIBRATED,
+    FM_BASIS_COUNT
+} fm_claim_basis;
+
 typedef enum fm_claim_take { FM_TAKE_EACH, FM_TAKE_LEAST, FM_TAKE_GREATEST } fm_claim_take;
 typedef enum fm_claim_table { FM_SELECT_SUMMARY, FM_SELECT_MEMORY } fm_claim_table;
 
@@ -103,6 +132,7 @@ typedef struct fm_claim_selection {
 typedef struct fm_claim {
     const char *id, *text, *source, *why, *paper, *plot;
     fm_claim_where where;
+    fm_claim_basis basis;
     bool is_required;
     fm_claim_form form;
     fm_claim_selection of[FM_CLAIM_SELECTIONS]; /* one, but for `order` */
@@ -115,6 +145,9 @@ typedef struct fm_claim {
     double level, between[2];
     bool rises, is_linear, wants_greatest;
 } fm_claim;
+
+/* "stated", as in figure files. */
+const char *claim_basis_name(fm_claim_basis basis);
 
 /* Reads the list `claims` of a figure's file; NULL: there are none. Texts point into the tree. The
  * caller frees the claims. FM_NO_MEMORY; FM_INVALID: naming file and line. */

@@ -194,12 +194,35 @@ static fm_status read_run(fm_paper_figure *figure, const fm_yaml *run, const fm_
     return status;
 }
 
+/* Without `scenes` a block has all, and no scene stands in for another. */
+static fm_status add_own_scenes(fm_paper_figure *figure, const fm_yaml *blocks,
+                                const fm_yaml_place *at)
+{
+    fm_text_list scenes = { 0 };
+    fm_status status = FM_OK;
+    if (blocks == NULL)
+        return FM_OK;
+    for (size_t i = 0; i < (blocks->kind == FM_YAML_LIST ? blocks->count : 1); i++) {
+        if (status == FM_OK)
+            status = field_list(&scenes, blocks->kind == FM_YAML_LIST ? &blocks->items[i] : blocks,
+                                "scenes", at);
+        if (status == FM_OK && !text_list_add_all(&figure->own_scenes, &scenes))
+            status = fm_fail(at->err, FM_NO_MEMORY, "%s: scenes", at->path);
+        text_list_free(&scenes);
+    }
+    return status;
+}
+
 static fm_status read_parts(fm_paper_figure *figure, const fm_yaml_place *at)
 {
     const fm_figure_file *file = &figure->file;
     fm_status status = field_list(&figure->deviations, file->tree, "deviations", at);
     if (status == FM_OK)
         status = read_run(figure, file->run, at);
+    if (status == FM_OK)
+        status = add_own_scenes(figure, file->run, at);
+    if (status == FM_OK)
+        status = add_own_scenes(figure, file->large, at);
     if (status == FM_OK && file->charts != NULL)
         status = read_charts(figure, file->charts, at);
     if (status == FM_OK)
@@ -243,6 +266,7 @@ void paper_figure_close(fm_paper_figure *figure)
     }
     text_list_free(&figure->methods);
     text_list_free(&figure->scenes);
+    text_list_free(&figure->own_scenes);
     text_list_free(&figure->feeds);
     text_list_free(&figure->deviations);
     claims_free(figure->claims, figure->claim_count);

@@ -80,6 +80,7 @@ typedef struct fm_paper_point {
 typedef struct fm_paper_figure {
     const char *id, *paper, *title, *source;
     fm_text_list methods, scenes, feeds; /* of `run`; empty: all */
+    fm_text_list own_scenes;             /* of all blocks of `run` and `large`; empty: all */
     bool has_table;                      /* of memory: its rows are in memory.csv */
     fm_text_list deviations;
     fm_figure_chart charts[FM_FIGURE_CHARTS];

@@ -208,7 +208,7 @@ static int write_plan(const fm_arguments *arguments, const fm_plan *plan)
     fm_error err = { 0 };
     fm_mesh_look meshes = { 0 };
     if (plan->unknown.status != FM_OK)
-        fprintf(cli->talk, "auto is not worked out: %s\n", plan->unknown.message);
+        fprintf(cli->talk, "auto and published are not worked out: %s\n", plan->unknown.message);
     int code = arguments->json ? write_json(cli, plan) : write_table(cli, plan);
     fflush(cli->out); /* the cases before what is said of their meshes */
     if (!arguments->quiet && mesh_look(&meshes, cli->talk, plan, NULL, &err) != FM_OK)

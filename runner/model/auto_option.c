@@ -5,7 +5,8 @@
 
 #include "model/formula.h"
 
-#define LAYOUT "layout"
+#define LAYOUT    "layout"
+#define PUBLISHED "published"
 #define NODE   "node"
 #define PIXELS "per_pixel"
 
@@ -35,6 +36,8 @@ static const auto_rule rules[] = {
 };
 enum { ORDER_LENGTH = sizeof rules[0].order / sizeof rules[0].order[0] };
 
+static const char *const published[ORDER_LENGTH] = { "image", "layer" };
+
 fm_auto_case auto_case(const fm_method_desc *method, const fm_settings *settings, uint32_t n)
 {
     return (fm_auto_case){ .method = method,
@@ -46,8 +49,15 @@ fm_auto_case auto_case(const fm_method_desc *method, const fm_settings *settings
                                             settings->cull_memory == FM_CULL_MEMORY_SHARED };
 }
 
+bool auto_is_published(const char *option, const char *value)
+{
+    return strcmp(option, LAYOUT) == 0 && strcmp(value, PUBLISHED) == 0;
+}
+
 bool auto_is_open(const fm_choice *choice)
 {
+    if (auto_is_published(choice->name, choice->value))
+        return true;
     for (size_t i = 0; i < AUTO_OPTION_COUNT; i++)
         if (strcmp(choice->name, auto_options[i].name) == 0)
             return strcmp(choice->value, AUTO_VALUE) == 0;
@@ -103,11 +113,13 @@ static void resolve(fm_choice *choice, const asked_choices *asked, const fm_auto
                     const fm_auto_device *device)
 {
     const fm_option *option = option_find(of->method, choice->name);
-    const auto_rule *rule = rule_for(choice->name, of->method, device);
-    for (size_t i = 0; i < ORDER_LENGTH && rule->order[i] != NULL; i++) {
-        if (!option_has_value(option, rule->order[i]))
+    const char *const *order = auto_is_published(choice->name, choice->value)
+                                   ? published
+                                   : rule_for(choice->name, of->method, device)->order;
+    for (size_t i = 0; i < ORDER_LENGTH && order[i] != NULL; i++) {
+        if (!option_has_value(option, order[i]))
             continue;
-        snprintf(choice->value, sizeof choice->value, "%s", rule->order[i]);
+        snprintf(choice->value, sizeof choice->value, "%s", order[i]);
         if (fits(asked, of, device))
             return;
     }

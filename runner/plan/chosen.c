@@ -235,7 +235,7 @@ static fm_status check_option_value(const fm_chosen *chosen, const fm_sweep *swe
         const fm_option *option = method != NULL ? option_find(method, sweep->name) : NULL;
         if (option == NULL)
             continue;
-        if (option_has_value(option, value))
+        if (option_has_value(option, value) || auto_is_published(option->name, value))
             return FM_OK;
         if (legal[0] == '\0')
             add_values(legal, option);

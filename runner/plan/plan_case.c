@@ -165,9 +165,14 @@ static bool know_device(const fm_plan_point *point)
 static void work_out_options(fm_case *made, const fm_plan_point *point)
 {
     const fm_auto_case of = auto_case(point->entry->plugin->method, &made->settings, 0);
-    for (size_t i = 0; i < made->choice_count; i++)
-        made->worked_out |= (uint32_t)auto_is_open(&made->choices[i]) << i;
-    if (made->worked_out != 0 && know_device(point))
+    bool is_open = false;
+    for (size_t i = 0; i < made->choice_count; i++) {
+        const bool is_auto = strcmp(made->choices[i].value, AUTO_VALUE) == 0;
+        const bool is_open_too = auto_is_open(&made->choices[i]);
+        is_open |= is_open_too;
+        made->worked_out |= (uint32_t)(is_open_too && is_auto) << i;
+    }
+    if (is_open && know_device(point))
         auto_resolve(made->choices, made->choice_count, &of, &point->device_memo->device);
 }
 

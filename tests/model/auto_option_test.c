@@ -149,6 +149,23 @@ static void a_method_has_only_its_own_layouts(void **state)
     assert_string_equal(resolved(&method, 8, &software), "swizzled");
 }
 
+/* Also on software, whatever the method's traits; without the image the same array in a buffer. */
+static void the_published_layout_is_an_image_or_layers(void **state)
+{
+    (void)state;
+    const fm_method_desc method = make_method(0);
+    const fm_choice given = { "layout", "published" };
+    fm_auto_device device = software;
+    fm_choice choices[FM_MAX_OPTIONS];
+    const fm_auto_case of = { .method = &method, .width_px = 3, .height_px = 2, .k = 8 };
+    assert_true(auto_is_open(&given));
+    auto_choices(choices, &given, 1, &of, &device);
+    assert_string_equal(choices[0].value, "image");
+    device.image_layers = 7;
+    auto_choices(choices, &given, 1, &of, &device);
+    assert_string_equal(choices[0].value, "layer");
+}
+
 static void a_layout_that_was_chosen_stays(void **state)
 {
     (void)state;
@@ -213,6 +230,7 @@ int main(void)
         cmocka_unit_test(an_image_that_a_device_lacks_is_not_taken),
         cmocka_unit_test(a_shared_map_keeps_arrays_in_buffers),
         cmocka_unit_test(a_method_has_only_its_own_layouts),
+        cmocka_unit_test(the_published_layout_is_an_image_or_layers),
         cmocka_unit_test(a_layout_that_was_chosen_stays),
         cmocka_unit_test(a_list_has_whole_nodes_on_a_gpu),
         cmocka_unit_test(words_of_pixels_lie_in_images_on_software),

@@ -162,12 +162,44 @@ static void a_mistyped_name_is_no_axis(void **state)
     assert_false(is_axis("run:\n  - { own_culling: [on] }\n", "culling"));
 }
 
+/* "within 10 points" has two sides. A spread has one: the greatest over the least is never below 1.
+ */
+static void within_has_two_sides(void **state)
+{
+    const project *of = *state;
+    for (size_t i = 0; i < of->count; i++)
+        for (size_t c = 0; c < of->files[i].figure->claim_count; c++) {
+            const fm_claim *claim = &of->files[i].figure->claims[c];
+            if (strstr(claim->text, "within") != NULL && claim->form != FM_CLAIM_SPREAD &&
+                (isinf(claim->low) || isinf(claim->high)))
+                fail_msg("claim %s: \"%s\", and one bound", claim->id, claim->text);
+        }
+}
+
+/* A scene that --smoke puts in the place of another is none of the figure's own: what holds on it
+ * would seem to hold on the paper's. */
+static void smoke_scenes_are_not_the_figures(void **state)
+{
+    const project *of = *state;
+    for (size_t i = 0; i < of->count; i++) {
+        const fm_paper_figure *figure = of->files[i].figure;
+        const fm_yaml *scenes =
+            figure->file.smoke != NULL ? yaml_tree_find(figure->file.smoke, "scenes") : NULL;
+        for (size_t s = 0; scenes != NULL && figure->claim_count > 0 && s < scenes->count; s++)
+            if (text_list_has(&figure->own_scenes, scenes->items[s].text))
+                fail_msg("%s: smoke has scene %s, and so has run", figure->id,
+                         scenes->items[s].text);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_claim_of_the_papers_is_in_a_figure),
         cmocka_unit_test(claims_select_by_what_results_have),
         cmocka_unit_test(a_mistyped_name_is_no_axis),
+        cmocka_unit_test(within_has_two_sides),
+        cmocka_unit_test(smoke_scenes_are_not_the_figures),
     };
     return cmocka_run_group_tests(tests, open_project, close_project);
 }

@@ -132,7 +132,8 @@ static size_t count_decided(const aa_run *run, uint64_t seed)
     const fm_verdicts_desc desc = { results, NULL, figures, 1 };
     assert_int_equal(verdicts_make(&verdicts, &desc, &err), FM_OK);
     assert_int_equal(verdicts.count, PAIRS);
-    const size_t open = verdicts_count(&verdicts, FM_VERDICT_UNCLEAR);
+    const fm_verdict_counts counts = verdicts_count(&verdicts, NULL);
+    const size_t open = counts.counts[FM_BASIS_STATED][FM_VERDICT_UNCLEAR];
     verdicts_free(&verdicts);
     paper_figure_close(figure);
     result_files_close(results);

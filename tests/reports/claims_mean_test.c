@@ -56,12 +56,64 @@ static void mean_of_seeds_is_as_sure_as_they_agree(void **state)
     assert_true(fabs(apart.measured.median - 2) < 0.01);
 }
 
+/* b over a is 1.9 and 2.1, or 2 twice, at k 4 with seeds 1 and 2; 3 at k 8. */
+static fm_verdict_kind judge_forms(const char *claim, double apart)
+{
+    const fakes rows = { { { ROW("a", 4, 0.25, 10) },
+                           { ROW("b", 4, 0.25, 10 * (2 - apart)) },
+                           { ROW("a", 4, 0.25, 10), .seed = 2 },
+                           { ROW("b", 4, 0.25, 10 * (2 + apart)), .seed = 2, .missing = 3 },
+                           { ROW("a", 8, 0.25, 10) },
+                           { ROW("b", 8, 0.25, 30) },
+                           { ROW("a", 8, 0.25, 10), .seed = 2 },
+                           { ROW("b", 8, 0.25, 30), .seed = 2 } } };
+    return judge_beside(claim, &rows, NULL).verdict.kind;
+}
+
+/* Two seeds that are 5 % apart say next to nothing, whatever the form. (A peak
+ * compares intervals, as an order does.) */
+static void each_form_is_as_sure_as_seeds_agree(void **state)
+{
+    (void)state;
+    static const char *const claims[] = {
+        "at_most: 2.5\nof: { method: b, k: 4 }\nover: { method: a }\n",
+        "form: any\nat_most: 2.5\n" RATIO,
+        "form: order\nof: [{ method: a, k: 4 }, { method: b }]\n",
+        "form: monotone\nalong: k\ngoes: rises\ntolerance: 0\n" RATIO,
+        "form: crossing\nalong: k\nlevel: 2.6\ngoes: rises\nbetween: [5, 8]\n" RATIO,
+        "form: slope\nalong: k\nequals: 0.585\ntolerance: 0.2\n" RATIO,
+        "form: spread\nalong: k\nat_most: 1.8\n" RATIO,
+    };
+    for (size_t i = 0; i < sizeof claims / sizeof claims[0]; i++) {
+        if (judge_forms(claims[i], 0.0) != FM_VERDICT_HOLDS)
+            fail_msg("seeds agree: %s", claims[i]);
+        if (judge_forms(claims[i], 0.1) != FM_VERDICT_UNCLEAR)
+            fail_msg("seeds differ: %s", claims[i]);
+    }
+}
+
+static void what_is_exact_is_so_of_each_seed(void **state)
+{
+    (void)state;
+    assert_int_equal(judge_forms("equals: 0\nof: { method: a, metric: missing }\n", 0),
+                     FM_VERDICT_HOLDS);
+    assert_int_equal(judge_forms("equals: 0\nof: { method: b, metric: missing }\n", 0),
+                     FM_VERDICT_FAILS);
+    assert_int_equal(
+        judge_forms("at_most: 0\nrequired: true\nof: { method: b, metric: missing }\n", 0),
+        FM_VERDICT_FAILS);
+    assert_int_equal(judge_forms("at_most: 0\nof: { method: b, metric: missing }\n", 0),
+                     FM_VERDICT_UNCLEAR);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(mean_allows_a_point_outside),
         cmocka_unit_test(mean_of_seeds_is_as_sure_as_they_agree),
         cmocka_unit_test(over_minus_is_taken_from_over),
+        cmocka_unit_test(each_form_is_as_sure_as_seeds_agree),
+        cmocka_unit_test(what_is_exact_is_so_of_each_seed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

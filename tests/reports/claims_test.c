@@ -416,6 +416,7 @@ static void claims_csv_has_the_columns_and_both_of_the_papers_values(void **stat
     assert_string_equal(table_cell(table, 0, table_column(table, "paper_value")),
                         "25; its own plot: 8.9");
     assert_string_equal(table_cell(table, 0, table_column(table, "verdict")), "holds");
+    assert_string_equal(table_cell(table, 0, table_column(table, "basis")), "stated");
     assert_true(atof(table_cell(table, 0, table_column(table, "measured"))) == 0.5);
     table_close(table);
     verdicts_free(&verdicts);
