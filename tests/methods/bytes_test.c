@@ -69,6 +69,12 @@ static uint64_t multipass_k_buffer(const workload *w)
     return (8 * 8 + 4) * w->pixels + 4;
 }
 
+/* Counter, lock, boundary of four words. */
+static uint64_t multipass_kplus(const workload *w)
+{
+    return (8 * 8 + 4 + 4 + 16) * w->pixels + 4;
+}
+
 static uint64_t multipass_routed(const workload *w)
 {
     return ((8 + 4 + 1) * 4 + 4) * w->pixels + 4;
@@ -172,6 +178,7 @@ static const struct formula {
     { "kplus-array", kplus },
     { "kplus-heap", kplus },
     { "kplus-dynamic", chosen_kplus },
+    { "kplus-multipass", multipass_kplus },
     { "kb", k_buffer },
     { "kb-packed", packed_k_buffer },
     { "kb-multipass", multipass_k_buffer },
