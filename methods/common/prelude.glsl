@@ -97,6 +97,15 @@ void fm_locked()
 {
     atomicAdd(fm_counters[FM_COUNTER_LOCKED], 1u);
 }
+// Pixels whose damage by racing fragments a method found, and repaired or could not repair.
+void fm_repaired()
+{
+    atomicAdd(fm_counters[FM_COUNTER_REPAIRED], 1u);
+}
+void fm_unrepaired()
+{
+    atomicAdd(fm_counters[FM_COUNTER_UNREPAIRED], 1u);
+}
 void fm_arrived()
 {
     if (FM_IS_STORE != 0 && fm_iteration == 0u)
@@ -107,6 +116,12 @@ void fm_culled()
 {
 }
 void fm_locked()
+{
+}
+void fm_repaired()
+{
+}
+void fm_unrepaired()
 {
 }
 void fm_arrived()
