@@ -1,6 +1,18 @@
 // For tests: damage that racing fragments do, in FORGE records of a pixel's `count` in sorted[]. A record is lost or
 // doubled; or, as two records, one is overwritten by a copy of its neighbour, or torn: one's depth with the other's
 // colour. Records are hit one after the other from one that is another in each pixel.
+#if FORGE == FORGE_EVICT
+// Or it is gone and was told as pushed out, so that the sums do not miss it.
+void forge(uvec2 pixel, inout uint count)
+{
+    uint at = locator(pixel) % max(count, 1u);
+    if (count > 0u) {
+        forged_out = sorted[at];
+        sorted[at].x = FM_EMPTY_BITS;
+    }
+    whole_records(count);
+}
+#else
 void forge(uvec2 pixel, inout uint count)
 {
     const uint whole = count;
@@ -21,3 +33,4 @@ void forge(uvec2 pixel, inout uint count)
     }
     whole_records(count);
 }
+#endif

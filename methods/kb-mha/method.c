@@ -21,8 +21,9 @@ const fm_method_desc fm_method = {
         { .name = "layout", .values = { "auto", "pixel", "layer", "tile", "image" },
           .help = "side by side: a pixel's, the i-th of all pixels, or of a tile; image: a "
                   "layer each; auto: the fastest of them on the device" },
-        { .name = "forge", .values = { "0", "1", "2", "3", "4" },
-          .help = "for tests: so many records of each pixel are damaged before it is repaired" },
+        { .name = "forge", .values = { "0", "1", "2", "3", "4", "evict" },
+          .help = "for tests: so many records of each pixel are damaged before it is repaired; "
+                  "evict: one is gone, and was told as pushed out" },
         { .name = "unrepaired", .values = { "keep", "drop" },
           .help = "what cannot be repaired is handed over as it is or, for tests, not at all" },
     },

@@ -14,6 +14,7 @@ void whole_records(inout uint count)
             sorted[to++] = sorted[from];
     count = to;
 }
+uvec2 forged_out = uvec2(FM_EMPTY_BITS, 0u);
 #if FORGE > 0
 #include "kb-mha/forge.glsl"
 #endif
@@ -30,12 +31,23 @@ uint load_records(uvec2 pixel)
     return count;
 }
 
+// The sums, less what is forged as pushed out.
+uint told_at(uvec2 pixel, uint word)
+{
+    uint sum = sum_at(pixel, word);
+#if FORGE == FORGE_EVICT
+    uint gone[CODE_WORDS] = code_of(forged_out);
+    sum = forged_out.x == FM_EMPTY_BITS ? sum : minus(sum, gone[word]);
+#endif
+    return sum;
+}
+
 // What the sums have and the records have not. False: nothing, and so no record is damaged.
 bool find_damage(out uint differs[CODE_WORDS], uvec2 pixel, uint count)
 {
     uint any = 0u;
     FM_LOOP for (uint word = 0u; word < CODE_WORDS; ++word)
-        differs[word] = sum_at(pixel, word);
+        differs[word] = told_at(pixel, word);
     FM_LOOP for (uint i = 0u; i < count; ++i) {
         uint code[CODE_WORDS] = code_of(sorted[i]);
         FM_LOOP for (uint word = 0u; word < CODE_WORDS; ++word)
@@ -77,7 +89,7 @@ void add(inout uint count, damage found)
 bool are_nearest(uvec2 pixel, uint count)
 {
     uint farthest = count == K ? sorted[K - 1u].x : FM_EMPTY_BITS;
-    return farthest <= nearest_evicted(pixel);
+    return farthest <= min(nearest_evicted(pixel), forged_out.x);
 }
 
 bool repair(uvec2 pixel, inout uint count)

@@ -65,6 +65,14 @@ static void three_and_four_damaged_records_are_found(void **state)
     expect_forged(state, texts, sizeof texts / sizeof texts[0], false);
 }
 
+/* No sum misses a record that was pushed out: it is nearer than others that are there, or there is
+ * room for it. */
+static void a_record_that_was_wrongly_pushed_out_is_found(void **state)
+{
+    static const char *const texts[] = { "k=8 forge=evict", "k=5 forge=evict", "k=12 forge=evict" };
+    expect_forged(state, texts, sizeof texts / sizeof texts[0], false);
+}
+
 /* Scenes and k: with and without more fragments than places. */
 static const struct contended {
     const char *scene, *k;
@@ -137,6 +145,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         ON_VULKAN_AND_OSMESA(one_and_two_damaged_records_are_repaired),
         ON_VULKAN_AND_OSMESA(three_and_four_damaged_records_are_found),
+        ON_VULKAN_AND_OSMESA(a_record_that_was_wrongly_pushed_out_is_found),
         ON_VULKAN_AND_OSMESA(no_repair_is_wrong_when_neighbours_contend),
         ON_VULKAN_AND_OSMESA(nothing_is_found_where_nothing_races),
     };
