@@ -86,18 +86,29 @@ void fm_tell_cut()
 }
 
 #ifdef FM_CAPTURE
-// Events are counted in the checked build only: the timed one is undisturbed.
+// Events are counted in the checked build only: the timed one is undisturbed. What arrived, and was culled of
+// that, is counted in loops the first time only: the scene comes anew each time.
 void fm_culled()
 {
-    atomicAdd(fm_counters[FM_COUNTER_CULLED], 1u);
+    if (fm_iteration == 0u)
+        atomicAdd(fm_counters[FM_COUNTER_CULLED], 1u);
 }
 void fm_locked()
 {
     atomicAdd(fm_counters[FM_COUNTER_LOCKED], 1u);
 }
+// Pixels whose damage by racing fragments a method found, and repaired or could not repair.
+void fm_repaired()
+{
+    atomicAdd(fm_counters[FM_COUNTER_REPAIRED], 1u);
+}
+void fm_unrepaired()
+{
+    atomicAdd(fm_counters[FM_COUNTER_UNREPAIRED], 1u);
+}
 void fm_arrived()
 {
-    if (FM_IS_STORE != 0 && fm_iteration == 0u) // in loops the first time only
+    if (FM_IS_STORE != 0 && fm_iteration == 0u)
         atomicAdd(fm_counters[FM_COUNTER_ARRIVED], 1u);
 }
 #else
@@ -105,6 +116,12 @@ void fm_culled()
 {
 }
 void fm_locked()
+{
+}
+void fm_repaired()
+{
+}
+void fm_unrepaired()
 {
 }
 void fm_arrived()

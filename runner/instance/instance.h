@@ -44,6 +44,7 @@ typedef struct fm_frame_result {
     uint64_t culled, locked;         /* checked build only: by the method's own test; locks taken */
     uint64_t arrived; /* checked build only: fragments that pass `store` got to see when it first
                          ran in the frame; what an occupancy map culled is not among them */
+    uint64_t repaired, unrepaired; /* checked build only: pixels whose damage the method found */
     uint32_t cut; /* passes (bit i: number i) in which the device ended loops: what they were to do
                      is not done */
     uint32_t scene_passes; /* over the scene in the last try */

@@ -116,6 +116,8 @@ static fm_status read_counters(frame_run *frame)
     frame->result->lost = words[STAGE_COUNTER_LOST];
     frame->result->culled = words[STAGE_COUNTER_CULLED];
     frame->result->locked = words[STAGE_COUNTER_LOCKED];
+    frame->result->repaired = words[STAGE_COUNTER_REPAIRED];
+    frame->result->unrepaired = words[STAGE_COUNTER_UNREPAIRED];
     frame->result->arrived = words[STAGE_COUNTER_ARRIVED];
     frame->result->cut = words[STAGE_COUNTER_CUT];
     if (status == FM_OK)

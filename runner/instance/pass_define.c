@@ -54,6 +54,8 @@ static void define_counters(fm_text *text)
     shader_define(text, "FM_COUNTER_LOST", STAGE_COUNTER_LOST);
     shader_define(text, "FM_COUNTER_CULLED", STAGE_COUNTER_CULLED);
     shader_define(text, "FM_COUNTER_LOCKED", STAGE_COUNTER_LOCKED);
+    shader_define(text, "FM_COUNTER_REPAIRED", STAGE_COUNTER_REPAIRED);
+    shader_define(text, "FM_COUNTER_UNREPAIRED", STAGE_COUNTER_UNREPAIRED);
     shader_define(text, "FM_COUNTER_ARRIVED", STAGE_COUNTER_ARRIVED);
     shader_define(text, "FM_COUNTER_IMAGE_LOW", STAGE_COUNTER_IMAGE_LOW);
     shader_define(text, "FM_COUNTER_IMAGE_HIGH", STAGE_COUNTER_IMAGE_HIGH);

@@ -91,6 +91,11 @@ const fm_metric_info fm_metrics[FM_METRIC_COUNT] = {
         "fragments that the method took for each that it keeps", CASE, LESS, MEASURED },
     [FM_METRIC_LOCKS_TAKEN] = { "locks_taken", "locks taken", "", "times that a pixel's lock was taken",
         CASE, LESS, MEASURED, WHOLE },
+    [FM_METRIC_PIXELS_REPAIRED] = { "pixels_repaired", "repaired pixels", "",
+        "pixels in which the method found and repaired what racing fragments had damaged; 0 of methods "
+        "that do not look", CASE, MEASURED, WHOLE },
+    [FM_METRIC_PIXELS_UNREPAIRED] = { "pixels_unrepaired", "damaged pixels", "",
+        "pixels in which the method found damage that it could not repair", CASE, LESS, MEASURED, WHOLE },
     [FM_METRIC_CULL_WORDS] = { "cull_words", "words of the map", "",
         "words of 32 buckets that a pixel of the occupancy map has", CASE, WHOLE },
     [FM_METRIC_K_CHOSEN] = { "k_chosen", "k chosen", "", "the k that the method chose for the frame",

@@ -33,6 +33,8 @@ enum {
     STAGE_COUNTER_CULLED,
     STAGE_COUNTER_LOCKED,
     STAGE_COUNTER_ARRIVED,
+    STAGE_COUNTER_REPAIRED,
+    STAGE_COUNTER_UNREPAIRED,
     STAGE_COUNTER_IMAGE_LOW, /* hash of the image, after instance_image_hash */
     STAGE_COUNTER_IMAGE_HIGH,
     STAGE_COUNTER_GO_ON, /* invocations that want their pass to run again; added up */

@@ -103,6 +103,10 @@ static void add_culled(json_t *metrics, const fm_answer_desc *desc)
     answer_set_count(metrics, FM_METRIC_FRAGMENTS_ARRIVED, arrived);
     answer_set_count(metrics, FM_METRIC_FRAGMENTS_CULLED, m->culled);
     answer_set_count(metrics, FM_METRIC_LOCKS_TAKEN, m->locked);
+    if ((desc->method->traits & FM_TRAIT_RACY) != 0) {
+        answer_set_count(metrics, FM_METRIC_PIXELS_REPAIRED, m->repaired);
+        answer_set_count(metrics, FM_METRIC_PIXELS_UNREPAIRED, m->unrepaired);
+    }
     if (desc->method->keeps != FM_KEEPS_K_NEAREST)
         return;
     if (all > kept)

@@ -68,6 +68,7 @@ typedef struct fm_measurement {
     uint32_t captured_frames, distinct_fragments;
     uint64_t missing_max;             /* of any captured frame */
     uint64_t culled, locked, arrived; /* as of a frame: fm_frame_result */
+    uint64_t repaired, unrepaired;    /* pixels, as of a frame */
     fm_resource_accesses *accesses;   /* [accesses_count], of the first captured frame; owned. None
                                          where the device does not count, or `uncounted` says why */
     size_t accesses_count;

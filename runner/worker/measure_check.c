@@ -176,6 +176,8 @@ static void note_counts(checking *check, const fm_frame_result *result)
     m->culled = result->culled;
     m->locked = result->locked;
     m->arrived = result->arrived;
+    m->repaired = result->repaired;
+    m->unrepaired = result->unrepaired;
 }
 
 /* Of the first frame that is captured. */

@@ -69,6 +69,18 @@ static uint64_t multipass_k_buffer(const workload *w)
     return (8 * 8 + 4) * w->pixels + 4;
 }
 
+/* Twelve sums and a maximum beside the records. */
+static uint64_t coded_k_buffer(const workload *w)
+{
+    return k_buffer(w) + 13 * 4 * w->pixels;
+}
+
+/* Counter, lock, boundary of four words. */
+static uint64_t multipass_kplus(const workload *w)
+{
+    return (8 * 8 + 4 + 4 + 16) * w->pixels + 4;
+}
+
 static uint64_t multipass_routed(const workload *w)
 {
     return ((8 + 4 + 1) * 4 + 4) * w->pixels + 4;
@@ -189,8 +201,11 @@ static const struct formula {
     { "kplus-array", kplus },
     { "kplus-heap", kplus },
     { "kplus-dynamic", chosen_kplus },
+    { "kplus-multipass", multipass_kplus },
     { "kb", k_buffer },
     { "kb-packed", packed_k_buffer },
+    { "kb-mha", coded_k_buffer },
+    { "kb-mha-blend", coded_k_buffer },
     { "kb-multipass", multipass_k_buffer },
     { "kb-sr-multipass", multipass_routed },
     { "dual-k", counted_dual_peeling },

@@ -367,6 +367,12 @@ static bool decides_what_is_kept(const fm_method_desc *method, const fm_option *
     return is_samples && (method->traits & FM_TRAIT_SORTED_INPUT) != 0;
 }
 
+/* There to damage what is stored, for hazard_test. */
+static bool forges(const fm_option *option)
+{
+    return strcmp(option->name, "forge") == 0;
+}
+
 /* The first value is the default, which the others are compared with; of numbers the ends are
  * tried, since what lies between differs in nothing but size. */
 static bool is_tried(const fm_option *option, int i)
@@ -383,7 +389,7 @@ static void expect_own_options(kit_scene *scene, const fm_method_desc *method, u
     for (const fm_option *option = method->options;
          option < method->options + FM_MAX_OPTIONS && option->name != NULL; option++)
         for (int i = 0; i < FM_MAX_OPTION_VALUES && option->values[i] != NULL &&
-                        !decides_what_is_kept(method, option);
+                        !decides_what_is_kept(method, option) && !forges(option);
              i++) {
             if (!is_tried(option, i))
                 continue;

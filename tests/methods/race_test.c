@@ -54,9 +54,9 @@ static void k_buffers_err_in_most_pixels_when_neighbours_contend(void **state)
 
 static void synchronised_methods_are_exact_when_neighbours_contend(void **state)
 {
-    static const char *const methods[] = { "kplus-array", "kplus-heap", "kb-ps",
-                                           "kb-mdt64",    "kb-mdt32",   "kb-ll",
-                                           "kb-multi",    "loop32",     "loop64" };
+    static const char *const methods[] = { "kplus-array", "kplus-heap",     "kb-ps",    "kb-mdt64",
+                                           "kb-mdt32",    "kb-ll",          "kb-multi", "loop32",
+                                           "loop64",      "kplus-multipass" };
     scene_kit kit;
     kit_scene scene;
     kit_open(&kit, lavapipe_of(state));

@@ -7,7 +7,8 @@
 
 static const double image_tolerance = 1e-6;
 
-static const char *const methods[] = { "kplus-array", "kplus-heap", "kplus-sb", "kplus-dynamic" };
+static const char *const methods[] = { "kplus-array", "kplus-heap", "kplus-sb", "kplus-dynamic",
+                                       "kplus-multipass" };
 enum { METHOD_COUNT = sizeof methods / sizeof methods[0] };
 
 /* No depth of a pixel occurs twice: of equal depths either may be the first. */

@@ -26,6 +26,7 @@ static void expect_passes(kit_scene *scene, const expected *e)
         if (m.scene_passes != e->scene_passes)
             fail_msg("%s, %s: %u passes over the scene, not %u", e->scene, where, m.scene_passes,
                      e->scene_passes);
+        assert_true(m.culled <= scene->truth->fragment_count);
         assert_int_equal(m.bytes_allocated, m.bytes_predicted);
         assert_true(m.bytes_used <= m.bytes_allocated);
     }
@@ -76,6 +77,27 @@ static void kb_takes_slots_in_each_pass(void **state)
         { SHUFFLED " n=25", "kb-multipass", "k=3", 1 },
         { SHUFFLED " n=5 fragment_probability=0.5", "kb-multipass", "k=5 slots=1", 5 },
         { SHUFFLED " n=0", "kb-multipass", "k=8", 1 },
+    };
+    EXPECT_ALL(state, cases);
+}
+
+/* The same of the k+-buffer, which keeps every pass apart from the next by a fragment and its
+ * copies: none is lost where depths tie, or where fragments are copies of one another. */
+static void kplus_takes_slots_in_each_pass(void **state)
+{
+    static const expected cases[] = {
+        { SHUFFLED " n=25", "kplus-multipass", "k=25", 4 },
+        { SHUFFLED " n=25 depths=coplanar", "kplus-multipass", "k=25 slots=16 layout=tile", 2 },
+        { SHUFFLED " n=25 depths=coplanar colours=grey", "kplus-multipass", "k=64 slots=4", 7 },
+        { SHUFFLED " n=24 depths=coplanar", "kplus-multipass", "k=24", 3 },
+        { SHUFFLED " n=24", "kplus-multipass", "k=64", 4 },
+        { SHUFFLED " n=8", "kplus-multipass", "k=64", 2 },
+        { SHUFFLED " n=9", "kplus-multipass", "k=64", 2 },
+        { SHUFFLED " n=25", "kplus-multipass", "k=10 slots=4 layout=layer", 3 },
+        { SHUFFLED " n=25", "kplus-multipass", "k=3", 1 },
+        { SHUFFLED " n=5 depths=coplanar", "kplus-multipass", "k=5 slots=1 layout=image", 5 },
+        { SHUFFLED " n=1", "kplus-multipass", "k=1 slots=1", 1 },
+        { SHUFFLED " n=0", "kplus-multipass", "k=8", 1 },
     };
     EXPECT_ALL(state, cases);
 }
@@ -155,6 +177,37 @@ static void ties_are_lost_at_the_boundary_only(void **state)
     kit_close(&kit);
 }
 
+/* Twelve layers: nearer and farther ones, and between them eight at one depth, of which some are
+ * copies of one another. Whatever a pass has room for, none is lost and none comes twice. */
+static void kplus_keeps_ties_and_copies_at_every_boundary(void **state)
+{
+    static const uint8_t depth[] = { 6, 4, 4, 2, 4, 4, 6, 4, 4, 2, 4, 4 };
+    static const uint8_t colour[] = { 1, 7, 5, 1, 5, 7, 2, 5, 9, 1, 5, 0 };
+    static const char *const slots[] = { "1", "2", "4", "8", "16" };
+    scene_kit kit;
+    kit_scene scene;
+    kit_open(&kit, device_of(state));
+    fm_scene *made = kit_quads_create(3, 2, 12);
+    for (uint32_t i = 0; i < 12; i++)
+        kit_quad(made, i, (fm_rect){ 0, 0, 3, 2 }, 0.125f * (float)depth[i],
+                 0x40000000u + colour[i]);
+    kit_scene_take(&scene, &kit, made);
+    for (size_t i = 0; i < sizeof slots / sizeof slots[0]; i++)
+        for (uint32_t k = 5; k <= 13; k += 4) {
+            const uint32_t feed = (i + k / 4) % 2 == 0 ? FM_FEED_RASTER : FM_FEED_COMPUTE_ADJACENT;
+            char texts[32];
+            fm_measurement m;
+            snprintf(texts, sizeof texts, "k=%u slots=%s", (unsigned)k, slots[i]);
+            if (kit_measure(&m, &scene, &(kit_way){ "kplus-multipass", feed, texts }) &&
+                m.check.missing + m.check.extra + m.check.misordered + m.lost != 0)
+                fail_msg("%s, feed %u: missing %u, extra %u, lost %u", texts, (unsigned)feed,
+                         (unsigned)m.check.missing, (unsigned)m.check.extra, (unsigned)m.lost);
+            measurement_free(&m);
+        }
+    kit_scene_close(&scene);
+    kit_close(&kit);
+}
+
 /* Ten layers, farthest first, by four samples: each pass keeps the first arrivals, the farthest of
  * which are then the boundary, and what is nearer never comes. */
 static void routing_loses_what_arrives_behind_its_turn(void **state)
@@ -177,6 +230,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         ON_VULKAN_AND_OSMESA(kb_takes_slots_in_each_pass),
+        ON_VULKAN_AND_OSMESA(kplus_takes_slots_in_each_pass),
+        ON_VULKAN_AND_OSMESA(kplus_keeps_ties_and_copies_at_every_boundary),
         ON_VULKAN_AND_OSMESA(kb_packed_takes_one_pass),
         ON_VULKAN_AND_OSMESA(routing_takes_samples_in_each_pass),
         ON_VULKAN_AND_OSMESA(dual_stops_at_k),

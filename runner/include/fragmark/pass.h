@@ -55,7 +55,9 @@
  *                 fm_blended(pixel, colour) hands over one vec4 (premultiplied) instead, where an
  *                 approximation has a colour and no fragments: its image is then its only error
  *   losses        fm_lost(pixel) counts a fragment that found no room: never lose one in silence
- *   events        fm_culled() and fm_locked() count in the checked build only
+ *   events        fm_culled() and fm_locked() count in the checked build only; so do fm_repaired()
+ *                 and fm_unrepaired(), once for a pixel in which the method found damage by racing
+ *                 fragments
  *   loops         fm_iteration is the number of the running iteration of the innermost loop, a uint
  *                 from 0. FM_LOOP before a `for` or `while` keeps it from being unrolled, so that
  *                 pipelines compile in less time. FM_LOOP_LIMIT: after so many iterations of all

@@ -1,0 +1,4 @@
+#include "kb-mha/code.glsl"
+#include "kb/slots.glsl"
+#include "kb-mha/sums.glsl"
+#include "kb-mha/repair.glsl"
