@@ -29,5 +29,6 @@ void store(uvec2 pixel, float depth, uint colour)
         count = counters[i];
         counters[i] = count + 1u;
     }
-    keep_at(pixel, place(pixel, count, fragment), fragment);
+    uint farthest_bits;
+    keep_at(pixel, place(pixel, count, fragment, farthest_bits), fragment);
 }
