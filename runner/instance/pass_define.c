@@ -93,20 +93,23 @@ static void define_lock(fm_text *text, const fm_instance *instance, const fm_pas
     const char *word = pass->exclusive ? pass->lock_word : NULL;
     const bool in_word = pass_has_lock_in_word(instance, pass);
     const bool is_image =
-        word != NULL && instance->method->resources[resource_find(instance->method, word).index]
-                                .kind == FM_RESOURCE_IMAGE;
+        word != NULL &&
+        instance->method->resources[resource_find(instance->method, word).index].kind ==
+            FM_RESOURCE_IMAGE;
     shader_define(text, "FM_HAS_LOCK_WORD", word != NULL);
     shader_define(text, "FM_LOCK_IN_WORD", in_word);
     shader_define(text, "FM_LOCK_IN_IMAGE", in_word && is_image);
     if (is_image)
-        text_add(text, "#define fm_word_image fm_image_%s\n"
-                       "#define fm_load_word(pixel) fm_load_%s(pixel).x\n"
-                       "#define fm_store_word(pixel, value) fm_store_%s(pixel, uvec4(value))\n",
+        text_add(text,
+                 "#define fm_word_image fm_image_%s\n"
+                 "#define fm_load_word(pixel) fm_load_%s(pixel).x\n"
+                 "#define fm_store_word(pixel, value) fm_store_%s(pixel, uvec4(value))\n",
                  word, word, word);
     else if (word != NULL)
-        text_add(text, "#define fm_words %s\n"
-                       "#define fm_load_word(pixel) %s[fm_pixel_index(pixel)]\n"
-                       "#define fm_store_word(pixel, value) %s[fm_pixel_index(pixel)] = value\n",
+        text_add(text,
+                 "#define fm_words %s\n"
+                 "#define fm_load_word(pixel) %s[fm_pixel_index(pixel)]\n"
+                 "#define fm_store_word(pixel, value) %s[fm_pixel_index(pixel)] = value\n",
                  word, word, word);
 }
 

@@ -7,15 +7,15 @@
 
 #define LAYOUT    "layout"
 #define PUBLISHED "published"
-#define NODE   "node"
-#define PIXELS "per_pixel"
+#define NODE      "node"
+#define PIXELS    "per_pixel"
 
 const fm_auto_option auto_options[AUTO_OPTION_COUNT] = { { LAYOUT, "" },
                                                          { NODE, "split" },
                                                          { PIXELS, "rows" } };
 
-/* An option's values from the fastest on, as measured: DECISIONS.md, 108, 110, 111 and 114. The first
- * rule of an option that is for the device and for the method counts. */
+/* An option's values from the fastest on, as measured: DECISIONS.md, 108, 110, 111 and 114. The
+ * first rule of an option that is for the device and for the method counts. */
 typedef struct auto_rule {
     const char *option;
     bool is_software;    /* the device */
@@ -27,7 +27,11 @@ static const auto_rule rules[] = {
     { LAYOUT, false, FM_TRAIT_BOUNDED, 0, { "image", "tile", "layer", "pixel" } },
     { LAYOUT, false, 0, 0, { "tile", "layer", "pixel", "image" } },
     /* it walks along a pixel's slots for each fragment */
-    { LAYOUT, true, FM_TRAIT_BOUNDED, FM_TRAIT_SORTS_IN_RESOLVE, { "pixel", "tile", "layer", "image" } },
+    { LAYOUT,
+      true,
+      FM_TRAIT_BOUNDED,
+      FM_TRAIT_SORTS_IN_RESOLVE,
+      { "pixel", "tile", "layer", "image" } },
     { LAYOUT, true, 0, 0, { "tile", "pixel", "layer", "image" } },
     { NODE, false, 0, 0, { "whole", "split" } },
     { NODE, true, 0, 0, { "split", "whole" } },

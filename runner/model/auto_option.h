@@ -49,7 +49,8 @@ bool auto_is_published(const char *option, const char *value);
 /* Whether this choice is one that auto_resolve works out. */
 bool auto_is_open(const fm_choice *choice);
 /* Replaces the value of each open choice among choices[count], which are all of the method's
- * options, by the fastest, or the published one, that the method has and whose images the device has; other choices stay.
+ * options, by the fastest, or the published one, that the method has and whose images the device
+ * has; other choices stay.
  */
 void auto_resolve(fm_choice *choices, size_t count, const fm_auto_case *of,
                   const fm_auto_device *device);

@@ -224,7 +224,8 @@ static fm_status check_lock_word(const fm_checked_method *check, const fm_pass *
             return fm_fail(err, FM_INVALID,
                            "lock_word '%s': needs one word a pixel: a fixed buffer of "
                            "FM_ELEMENT_UINT, or an image of FM_FORMAT_R32UI with one layer and "
-                           "one sample", word);
+                           "one sample",
+                           word);
     }
     return pass->lock_word_option != NULL
                ? check_option_of(check, "lock_word_option", pass->lock_word_option, "lock", err)

@@ -91,8 +91,8 @@ bool kit_measure_times(fm_measurement *measurement, kit_scene *scene, const kit_
  */
 fm_status kit_build(kit_scene *scene, const kit_way *way, bool is_capture, fm_error *err);
 /* TEXTS with a value of each option whose `auto` is the runner's, and of count_in, others for each
- * number: "k=8 layout=tile". These options say how fragments, or what is kept beside them, lie in memory, and
- * change nothing that is handed over. */
+ * number: "k=8 layout=tile". These options say how fragments, or what is kept beside them, lie in
+ * memory, and change nothing that is handed over. */
 void kit_memory_in_turn(char texts[96], const char *given, const fm_method_desc *method,
                         size_t number);
 /* "kplus-array, compute-layer, k=8": for messages. */

@@ -374,8 +374,6 @@ static void plugin_check_rejects_bad_lock_words(void **state)
             "lock_word 'pool': needs one word a pixel");
     REFUSES((m = with_lock_word(), m.passes[STORE].lock_word = "fragments"),
             "lock_word 'fragments': needs one word a pixel");
-    REFUSES((m = with_lock_word(), m.resources[1].element = FM_ELEMENT_FLOAT),
-            "lock_word 'counts': needs one word a pixel");
     REFUSES((m = with_lock_word(), m.resources[1].extent.constant = 1),
             "lock_word 'counts': needs one word a pixel");
 }

@@ -137,9 +137,9 @@ typedef enum fm_marker {
  * fastest of the others on the device, and never an image that the device lacks. Of a layout, where
  * arrays of a pixel's fragments lie, these are `image`, `tile`, `layer` and `pixel`, as many as the
  * method has; of a list's node `split` (three words) and `whole` (16 bytes at once); of the words
- * that each pixel has `rows`, `tiles` and `images`. Cases, ids and shaders have what it means. So it
- * is with `published` of a layout, which no method need list: `image`, or `layer` where the device
- * lacks the image. */
+ * that each pixel has `rows`, `tiles` and `images`. Cases, ids and shaders have what it means. So
+ * it is with `published` of a layout, which no method need list: `image`, or `layer` where the
+ * device lacks the image. */
 typedef struct fm_option {
     const char *name; /* lower-case letters, digits, '-' and '_'; no key of the runner */
     const char *values[FM_MAX_OPTION_VALUES]; /* the first is the default; letters as in a name, or

@@ -239,8 +239,8 @@ typedef struct fm_pass {
                               FM_ELEMENT_UINT, or an image of FM_FORMAT_R32UI), in which the spin
                               lock lies, too: see locks above */
     const char *lock_word_option; /* it lies in there only where this option is "lock" */
-    bool emits;     /* FM_PASS_PIXELS, _TILES, _INDIRECT: calls fm_emit. The last such pass
-                       completes the image. Every method has one, but for a floor */
+    bool emits;              /* FM_PASS_PIXELS, _TILES, _INDIRECT: calls fm_emit. The last such pass
+                                completes the image. Every method has one, but for a floor */
     bool flat_tessellation;  /* FM_PASS_SCENE: what it does with fragments does not depend on the
                                 tessellation, so layers are drawn with t = 1 */
     const char *count_total; /* FM_PASS_TOTAL: the total whose units it runs for */
