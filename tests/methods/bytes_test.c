@@ -171,6 +171,12 @@ static uint64_t chosen_kplus(const workload *w)
     return (8 * chosen + 4 + 4) * w->pixels + 4 * (1024 + 2);
 }
 
+/* The lock is in the counter. */
+static uint64_t chosen_kplus_in_one(const workload *w)
+{
+    return chosen_kplus(w) - 4 * w->pixels;
+}
+
 /* Counter and address; one or 32 shared counters and as many prefix sums. */
 static uint64_t l_buffer(const workload *w)
 {
@@ -188,6 +194,11 @@ static uint64_t kplus_in_s_buffer(const workload *w)
     return 8 * w->kept + 12 * w->pixels + 8 * 32;
 }
 
+static uint64_t kplus_in_s_buffer_in_one(const workload *w)
+{
+    return kplus_in_s_buffer(w) - 4 * w->pixels;
+}
+
 /* And a counter of triangles that are not finished. */
 static uint64_t freepipe(const workload *w)
 {
@@ -198,9 +209,12 @@ static const struct formula {
     const char *method; /* and its options, if the bytes hang on them */
     uint64_t (*bytes)(const workload *);
 } formulas[] = {
-    { "kplus-array", kplus },
-    { "kplus-heap", kplus },
-    { "kplus-dynamic", chosen_kplus },
+    { "kplus-array count_in=own", kplus },
+    { "kplus-array count_in=lock", counted },
+    { "kplus-heap count_in=own", kplus },
+    { "kplus-heap count_in=lock", counted },
+    { "kplus-dynamic count_in=own", chosen_kplus },
+    { "kplus-dynamic count_in=lock", chosen_kplus_in_one },
     { "kplus-multipass", multipass_kplus },
     { "kb", k_buffer },
     { "kb-packed", packed_k_buffer },
@@ -240,7 +254,8 @@ static const struct formula {
     { "kb-ab-ll node=split", linked_list },
     { "kb-ab-ll node=whole", list_of_whole_nodes },
     { "kb-ab-sb", s_buffer },
-    { "kplus-sb", kplus_in_s_buffer },
+    { "kplus-sb count_in=own", kplus_in_s_buffer },
+    { "kplus-sb count_in=lock", kplus_in_s_buffer_in_one },
 };
 
 static void expect_formula(const struct formula *formula, const workload *w,
