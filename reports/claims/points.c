@@ -7,6 +7,7 @@
 #include "read/group.h"
 #include "read/options.h"
 #include "read/workload.h"
+#include "seeds.h"
 
 void claim_points_add(fm_claim_points *points, const fm_claim_point *point)
 {
@@ -34,9 +35,10 @@ bool claim_point_same_workload(const fm_claim *claim, const fm_claim_point *a,
 {
     if (a->result == NULL || b->result == NULL)
         return a->result == b->result;
-    return workload_same(a->result, b->result,
-                         claim->form == FM_CLAIM_ORDER ? &claim->of[b->selection].own_columns
-                                                       : &claim->free_columns);
+    const fm_text_list *free_columns =
+        claim->form == FM_CLAIM_ORDER ? &claim->of[b->selection].own_columns : &claim->free_columns;
+    return seeds_stay_apart(claim) ? workload_same(a->result, b->result, free_columns)
+                                   : workload_same_of_any_seed(a->result, b->result, free_columns);
 }
 
 bool claim_point_same_series(const fm_claim *claim, const fm_claim_point *a,

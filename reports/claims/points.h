@@ -33,7 +33,7 @@ void claim_points_free(fm_claim_points *points);
 /* Points of one curve: they differ in `along` and `across` only. */
 bool claim_point_same_series(const fm_claim *claim, const fm_claim_point *a,
                              const fm_claim_point *b);
-/* The same workload, whatever the method. */
+/* The same workload, whatever the method; where seeds are joined, whatever the seed, too. */
 bool claim_point_same_workload(const fm_claim *claim, const fm_claim_point *a,
                                const fm_claim_point *b);
 /* "K+B-Array, k 8, n 128": tells a point from the others. used: [results->count], the cases of all

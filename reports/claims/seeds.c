@@ -22,17 +22,17 @@ fm_interval seeds_widen(fm_interval mean, const double *values, size_t count)
                           mean.median + hypot(half, mean.high - mean.median) };
 }
 
-static bool is_of_each_seed(const fm_claim *claim)
+bool seeds_stay_apart(const fm_claim *claim)
 {
     return claim->form == FM_CLAIM_MEAN || claim->form == FM_CLAIM_IMAGES || claim->is_required ||
            (claim->low == claim->high && claim->tolerance == 0.0);
 }
 
-static bool differs_in_seed(const fm_claim *claim, const fm_claim_point *a, const fm_claim_point *b,
-                            const fm_text_list *seed)
+static bool differs_in_seed(const fm_claim *claim, const fm_claim_point *a, const fm_claim_point *b)
 {
     if (a->result == NULL || b->result == NULL || a->selection != b->selection ||
-        strcmp(a->result->seed, b->result->seed) == 0 || !workload_same(a->result, b->result, seed))
+        strcmp(a->result->seed, b->result->seed) == 0 ||
+        !workload_same_of_any_seed(a->result, b->result, NULL))
         return false;
     return claim->of[a->selection].take != FM_TAKE_EACH ||
            (strcmp(a->result->method, b->result->method) == 0 &&
@@ -40,8 +40,7 @@ static bool differs_in_seed(const fm_claim *claim, const fm_claim_point *a, cons
 }
 
 /* values: room for the seeds of the point at `first`, which takes in what follows it. */
-static void join_at(fm_claim_points *points, size_t first, const fm_claim *claim,
-                    const fm_text_list *seed, double *values)
+static void join_at(fm_claim_points *points, size_t first, const fm_claim *claim, double *values)
 {
     fm_claim_point *point = &points->points[first];
     fm_interval sum = point->value;
@@ -50,7 +49,7 @@ static void join_at(fm_claim_points *points, size_t first, const fm_claim *claim
     values[0] = point->value.median;
     for (size_t i = first + 1; i < points->count; i++) {
         const fm_claim_point *other = &points->points[i];
-        if (!differs_in_seed(claim, point, other, seed)) {
+        if (!differs_in_seed(claim, point, other)) {
             points->points[kept++] = *other;
             continue;
         }
@@ -70,15 +69,13 @@ static void join_at(fm_claim_points *points, size_t first, const fm_claim *claim
 
 void seeds_join(fm_claim_points *points, const fm_claim *claim)
 {
-    fm_text_list seed = { 0 };
     double *values = calloc(points->count + 1, sizeof *values);
-    if (is_of_each_seed(claim)) {
+    if (seeds_stay_apart(claim)) {
         free(values);
         return;
     }
-    points->failed |= values == NULL || !text_list_add(&seed, "seed");
+    points->failed |= values == NULL;
     for (size_t i = 0; i < points->count && !points->failed; i++)
-        join_at(points, i, claim, &seed, values);
-    text_list_free(&seed);
+        join_at(points, i, claim, values);
     free(values);
 }
