@@ -85,10 +85,11 @@ void judging_note(judging *to, const char *format, ...)
     va_end(arguments);
 }
 
-void judging_skip(judging *to, size_t points, const char *format, ...)
+void judging_skip(judging *to, const fm_claim_point *points, size_t count, const char *format, ...)
 {
     va_list arguments;
-    to->skipped += points;
+    for (size_t i = 0; i < count; i++)
+        to->skipped += !points[i].is_incomplete;
     va_start(arguments, format);
     keep_note(to, format, arguments);
     va_end(arguments);
@@ -166,9 +167,9 @@ static void count_points(fm_verdict *verdict, const judging *to)
 {
     const fm_claim_points *points = to->points;
     const bool is_any = to->claim->form == FM_CLAIM_ANY;
-    size_t left_out = to->skipped + count_incomplete(points);
+    const size_t left_out = to->skipped + count_incomplete(points);
     verdict->total = points->count + points->missing_count;
-    verdict->judged = points->count - (left_out < points->count ? left_out : points->count);
+    verdict->judged = points->count - left_out;
     if (verdict->judged == verdict->total)
         return;
     if (verdict->kind == FM_VERDICT_HOLDS && !is_any)
@@ -197,6 +198,6 @@ void judging_end(fm_verdict *verdict, const judging *to)
     if (to->points->missing_count > 0)
         add(verdict, "%zu left out (%s)", to->points->missing_count, to->points->missing);
     if (incomplete > 0)
-        add(verdict, "%zu compared with fewer rows than are named (%s)", incomplete,
+        add(verdict, "%zu of fewer rows than were asked for (%s)", incomplete,
             to->points->incomplete);
 }

@@ -1,5 +1,6 @@
 #include "points.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,9 +25,29 @@ void claim_points_add(fm_claim_points *points, const fm_claim_point *point)
     points->points[points->count++] = *point;
 }
 
+void claim_points_lose(fm_claim_points *points, const fm_claim_lost *row)
+{
+    fm_claim_lost *grown = reallocarray(points->lost, points->lost_count + 1, sizeof *grown);
+    if (grown == NULL) {
+        points->failed = true;
+        return;
+    }
+    points->lost = grown;
+    points->lost[points->lost_count++] = *row;
+}
+
+void claim_points_reason(char text[256], const fm_case_row *result, const char *why)
+{
+    snprintf(text, 256, "%.60s%s%.12g: %.120s",
+             result->look.title != NULL ? result->look.title : result->method,
+             isnan(result->k) ? " n " : " k ",
+             isnan(result->k) ? result->metric[FM_METRIC_N] : result->k, why);
+}
+
 void claim_points_free(fm_claim_points *points)
 {
     free(points->points);
+    free(points->lost);
     *points = (fm_claim_points){ 0 };
 }
 

@@ -14,8 +14,9 @@ fm_interval seeds_widen(fm_interval mean, const double *values, size_t count);
  * and what compares points must not look at the seed of their rows. */
 bool seeds_stay_apart(const fm_claim *claim);
 
-/* Points that differ in their seed alone become one, their mean, unless they stay apart. Out of
- * memory is remembered in `failed`. */
+/* Points that differ in their seed alone become one, their mean, unless they stay apart. Rows that
+ * are lost are counted by the same key: a point with a lost seed is incomplete, and lost seeds
+ * without a point are one that is missing. Out of memory is remembered in `failed`. */
 void seeds_join(fm_claim_points *points, const fm_claim *claim);
 
 #endif

@@ -69,14 +69,15 @@ static void explain(fm_verdict *verdict, const verdicts_job *job, const fm_claim
                                          [FM_CLAIM_HAZARDS] =
                                              "needs a GPU, or feed compute-adjacent",
                                          [FM_CLAIM_SOFTWARE] = "needs a software rasteriser" };
+    const size_t cases = points->lost_count > 0 ? points->lost_count : points->missing_count;
     *verdict = (fm_verdict){ .kind = FM_VERDICT_NOT_TESTABLE, .measured = { NAN, NAN, NAN } };
     if (claim->where != FM_CLAIM_ANY_DEVICE &&
         is_software(job, device) == (claim->where != FM_CLAIM_SOFTWARE))
         snprintf(verdict->reason, sizeof verdict->reason, "%s%s%s", needs[claim->where],
                  claim->why[0] != '\0' ? ": " : "", claim->why);
-    else if (points->missing_count > 0)
-        snprintf(verdict->reason, sizeof verdict->reason, "%zu case%s without a result (%s)",
-                 points->missing_count, points->missing_count == 1 ? "" : "s", points->missing);
+    else if (cases > 0)
+        snprintf(verdict->reason, sizeof verdict->reason, "%zu case%s without a result (%s)", cases,
+                 cases == 1 ? "" : "s", points->missing);
     else
         snprintf(verdict->reason, sizeof verdict->reason,
                  "no case of this run is what the claim is about");

@@ -48,6 +48,65 @@ static void a_curve_of_too_few_points_is_left_out(void **state)
            "holds for 2 of 3 points");
 }
 
+/* b at k 4 and 8 with five seeds: of k 4 two are lost, of k 8 what `lost8` says. */
+static fakes seeds_of(unsigned lost8)
+{
+    fakes rows = { 0 };
+    for (unsigned i = 0; i < 10; i++)
+        rows.rows[i] = (fake){ ROW("b", i < 5 ? 4 : 8, 0.25, 5), .seed = i % 5 + 1,
+                               .status = i == 0 || i == 3 || i >= 10 - lost8 ? "crash" : NULL };
+    return rows;
+}
+
+static void seeds_of_a_point_are_counted_once(void **state)
+{
+    (void)state;
+    const fakes whole = seeds_of(0), none = seeds_of(5);
+    expect("at_most: 9\nof: { method: b }\n", &whole, "holds for 1 of 2 points");
+    expect("at_most: 9\nof: { method: b, k: 8 }\n", &whole, "holds");
+    expect("form: mean\nat_most: 9\nof: { method: b }\n", &whole, "holds for 8 of 10 points");
+    expect("form: mean\nat_most: 9\nof: { method: b }\n", &none, "holds for 3 of 10 points");
+    fakes other = none;
+    other.rows[0].status = other.rows[3].status = NULL;
+    expect("at_most: 9\nof: { method: b }\n", &other, "holds for 1 of 2 points");
+}
+
+/* Each method of a selection that takes the least of several has its own row that is lost. */
+static void seeds_that_are_lost_to_the_least_are_counted_once(void **state)
+{
+    (void)state;
+    fakes rows = seeds_of(0);
+    static const char claim[] = "at_most: 9\nof: { method: [a, b], take: least }\n";
+    for (int i = 0; i < 5; i++) {
+        rows.rows[i].method = "a";
+        rows.rows[i].k = 8;
+        rows.rows[i].status = "crash";
+    }
+    expect(claim, &rows, "holds for 1 of 2 points");
+    for (int i = 5; i < 10; i++)
+        rows.rows[i].status = i < 7 ? "crash" : NULL;
+    rows.rows[10] = (fake){ ROW("b", 16, 0.25, 5) };
+    expect(claim, &rows, "holds for 1 of 3 points");
+}
+
+/* A curve of one point, which lacks one of the methods that it is compared with. */
+static void what_is_left_out_twice_is_counted_once(void **state)
+{
+    (void)state;
+    const fakes rows = { { { ROW("a", 4, 0.25, 5) },
+                           { ROW("a", 8, 0.25, 10) },
+                           { ROW("a", 4, 0.75, 5) },
+                           { ROW("b", 4, 0.25, 5) },
+                           { ROW("b", 8, 0.25, 5) },
+                           { ROW("b", 4, 0.75, 5) },
+                           { ROW("c", 4, 0.25, 5) },
+                           { ROW("c", 8, 0.25, 5) },
+                           { ROW("c", 4, 0.75, 5), .status = "crash" } } };
+    expect("form: monotone\nalong: k\ngoes: rises\nof: { method: a }\n"
+           "over: { method: [b, c], take: least }\n",
+           &rows, "holds for 2 of 3 points");
+}
+
 static void any_needs_all_points_to_fail(void **state)
 {
     (void)state;
@@ -173,6 +232,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(points_left_out_are_no_plain_holds),
         cmocka_unit_test(a_curve_of_too_few_points_is_left_out),
+        cmocka_unit_test(seeds_of_a_point_are_counted_once),
+        cmocka_unit_test(seeds_that_are_lost_to_the_least_are_counted_once),
+        cmocka_unit_test(what_is_left_out_twice_is_counted_once),
         cmocka_unit_test(any_needs_all_points_to_fail),
         cmocka_unit_test(rows_to_compare_with_may_lack),
         cmocka_unit_test(a_method_that_was_not_run_is_left_out),
