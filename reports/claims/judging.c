@@ -162,7 +162,7 @@ static size_t count_incomplete(const fm_claim_points *points)
 }
 
 /* What was left out might have decided otherwise: of all points against a claim that holds, of any
- * point for one that fails. */
+ * point for one that fails. Where no point is whole, nothing was judged. */
 static void count_points(fm_verdict *verdict, const judging *to)
 {
     const fm_claim_points *points = to->points;
@@ -175,6 +175,8 @@ static void count_points(fm_verdict *verdict, const judging *to)
     if (verdict->kind == FM_VERDICT_HOLDS && !is_any)
         verdict->kind = FM_VERDICT_IN_PART;
     if (verdict->kind == FM_VERDICT_FAILS && is_any)
+        verdict->kind = FM_VERDICT_UNCLEAR;
+    if (verdict->kind != FM_VERDICT_NOT_TESTABLE && verdict->judged == 0)
         verdict->kind = FM_VERDICT_UNCLEAR;
 }
 
@@ -189,6 +191,8 @@ void judging_end(fm_verdict *verdict, const judging *to)
     name_deciders(verdict, to);
     if (to->worst.kind == FM_VERDICT_UNCLEAR)
         explain_unclear(verdict, to);
+    else if (verdict->kind == FM_VERDICT_UNCLEAR && verdict->judged == 0)
+        add(verdict, "unclear: no point is whole");
     for (size_t i = 0; i < to->points->count; i++)
         unknown += !interval_is_known(&to->points->points[i].value);
     if (unknown > 0 && interval_is_known(&to->worst.measured))

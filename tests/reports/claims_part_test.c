@@ -64,6 +64,7 @@ static void seeds_of_a_point_are_counted_once(void **state)
     const fakes whole = seeds_of(0), none = seeds_of(5);
     expect("at_most: 9\nof: { method: b }\n", &whole, "holds for 1 of 2 points");
     expect("at_most: 9\nof: { method: b, k: 8 }\n", &whole, "holds");
+    expect("at_most: 9\nof: { method: b, k: 4 }\n", &whole, "unclear");
     expect("form: mean\nat_most: 9\nof: { method: b }\n", &whole, "holds for 8 of 10 points");
     expect("form: mean\nat_most: 9\nof: { method: b }\n", &none, "holds for 3 of 10 points");
     fakes other = none;
@@ -124,7 +125,12 @@ static void rows_to_compare_with_may_lack(void **state)
     static const char claim[] = "at_least: 1.5\nof: { method: a }\n"
                                 "over: { method: [b, c], take: least }\n";
     fakes rows = part_of(10);
-    expect(claim, &rows, "holds for 0 of 3 points");
+    expect(claim, &rows, "unclear");
+    expect("at_least: 3\nof: { method: a }\nover: { method: [b, c], take: least }\n", &rows,
+           "unclear");
+    expect("form: any\nat_least: 1.5\nof: { method: a }\n"
+           "over: { method: [b, c], take: least }\n",
+           &rows, "unclear");
     rows.rows[6] = (fake){ ROW("c", 4, 0.25, 6) };
     rows.rows[7] = (fake){ ROW("c", 8, 0.25, 11) };
     rows.rows[8] = (fake){ ROW("c", 16, 0.25, 21) };
