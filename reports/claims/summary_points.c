@@ -119,6 +119,8 @@ static bool operand(fm_interval *value, fm_claim_point *point, points_job *job,
 {
     if (selection->is_formula) {
         *value = value_by_formula(selection, point->result);
+        if (!isfinite(value->median))
+            note_missing(job, point, point->result, "lacks a number of the formula");
         return isfinite(value->median);
     }
     const partner found = find_partner(job, selection, point->result);
@@ -168,6 +170,8 @@ static bool evaluate(fm_claim_point *point, points_job *job, const fm_claim_sele
         other = interval_difference(other, less);
         point->value = interval_ratio(point->value, other);
     }
+    if (!isfinite(point->value.median))
+        note_missing(job, point, point->result, "divided by 0");
     return isfinite(point->value.median);
 }
 

@@ -108,6 +108,21 @@ static void what_is_left_out_twice_is_counted_once(void **state)
            &rows, "holds for 2 of 3 points");
 }
 
+/* b has 0 bytes at k 8, and no k in its third row. */
+static void a_value_that_is_not_finite_is_left_out(void **state)
+{
+    (void)state;
+    const fakes rows = { { { ROW("b", 4, 0.25, 5), .bytes = 8 },
+                           { ROW("b", 8, 0.25, 5) },
+                           { ROW("b", 0, 0.75, 5), .bytes = 8 } } };
+    expect("at_least: 1\nof: { method: b, metric: fragments_generated }\n"
+           "over: { metric: bytes_allocated }\n",
+           &rows, "holds for 2 of 3 points");
+    expect("at_most: 1\nof: { method: b, metric: bytes_allocated }\n"
+           "over: { formula: { per_pixel_k: 8 } }\n",
+           &rows, "holds for 2 of 3 points");
+}
+
 static void any_needs_all_points_to_fail(void **state)
 {
     (void)state;
@@ -241,6 +256,7 @@ int main(void)
         cmocka_unit_test(seeds_of_a_point_are_counted_once),
         cmocka_unit_test(seeds_that_are_lost_to_the_least_are_counted_once),
         cmocka_unit_test(what_is_left_out_twice_is_counted_once),
+        cmocka_unit_test(a_value_that_is_not_finite_is_left_out),
         cmocka_unit_test(any_needs_all_points_to_fail),
         cmocka_unit_test(rows_to_compare_with_may_lack),
         cmocka_unit_test(a_method_that_was_not_run_is_left_out),
