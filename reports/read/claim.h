@@ -63,7 +63,8 @@
  * a method that the claim lists was not run, it `holds for 3 of 10 points`; what fails, fails. Of
  * form any it is the other way round: one point is enough to hold, and not all failing is unclear.
  * On a scene that no block of the figure's `run` and `large` has (--smoke and --scene put it there)
- * it `holds on another scene`; what fails there is `not testable here`, unless it is required.
+ * it `holds on another scene`; if it fails, the points of the figure's own scenes decide alone, and
+ * where there are none it is `not testable here`, unless it is required.
  * Intervals are by launches (base/stats.h). A time, or a
  * ratio or rate of times, has none if there was one launch, and a claim that hangs on it is
  * unclear. Bytes, counts, errors and modelled numbers are exact, and need one launch only; which

@@ -173,18 +173,18 @@ static void a_number_that_memory_lacks_is_left_out(void **state)
                      FM_VERDICT_IN_PART);
 }
 
-/* All rows are of scene `layers`. */
-static void judge_figure(char words[FM_VERDICT_WORDS_BYTES], const char *run, const char *claim)
+/* The figure has the first three rows. */
+static void judge_figure(char words[FM_VERDICT_WORDS_BYTES], const fakes *rows, const char *run,
+                         const char *claim)
 {
     fixture with;
     fm_claim_results verdicts;
     fm_text text = { 0 };
-    const fakes rows = part_of(10);
     text_add(&text,
              "id: f-1\npaper: f\ntitle: t\n%scharts:\n  - { id: c, title: c, x: k, y: frame_ms }\n"
              "claims:\n  - { id: F-1, text: t, of: { method: a }, %s }\n",
              run, claim);
-    fixture_open(&with, &rows, text.bytes, "figure,case_id\nf-1,c0\nf-1,c1\n");
+    fixture_open(&with, rows, text.bytes, "figure,case_id\nf-1,c0\nf-1,c1\nf-1,c2\n");
     const fm_paper_figure *const figures[] = { with.figure };
     const fm_verdicts_desc desc = { with.results, NULL, figures, 1 };
     assert_int_equal(verdicts_make(&verdicts, &desc, NULL), FM_OK);
@@ -199,6 +199,7 @@ static void another_scene_than_the_figures_is_no_plain_holds(void **state)
     (void)state;
     static const char own[] = "run:\n  - { scenes: [bunny] }\n  - { scenes: [hotel, layers] }\n";
     static const char other[] = "run:\n  - { scenes: [bunny] }\n  - { scenes: [hotel] }\n";
+    const fakes rows = part_of(10);
     static const char large[] = "run: { scenes: [bunny] }\nlarge:\n  - { scenes: [layers] }\n";
     static const struct {
         const char *run, *claim, *words;
@@ -211,7 +212,30 @@ static void another_scene_than_the_figures_is_no_plain_holds(void **state)
                 { other, "at_most: 1, required: true", "fails" } };
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
         char words[FM_VERDICT_WORDS_BYTES];
-        judge_figure(words, all[i].run, all[i].claim);
+        judge_figure(words, &rows, all[i].run, all[i].claim);
+        assert_string_equal(words, all[i].words);
+    }
+}
+
+/* a takes 10, 20 and 40, the last of them on a scene that the figure has not. */
+static void what_fails_on_the_figures_own_scene_fails(void **state)
+{
+    (void)state;
+    static const char run[] = "run: { scenes: [layers] }\n";
+    static const struct {
+        const char *claim, *words;
+    } all[] = { { "at_most: 15", "fails" },
+                { "at_most: 25", "holds for 2 of 3 points" },
+                { "at_most: 45", "holds on another scene" },
+                { "at_most: 25, required: true", "fails" },
+                { "form: mean, at_most: 17", "holds for 2 of 3 points" },
+                { "form: mean, at_most: 13", "fails" },
+                { "form: any, at_most: 5", "fails" } };
+    fakes rows = part_of(10);
+    rows.rows[2].scene = "bunny";
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
+        char words[FM_VERDICT_WORDS_BYTES];
+        judge_figure(words, &rows, run, all[i].claim);
         assert_string_equal(words, all[i].words);
     }
 }
@@ -262,6 +286,7 @@ int main(void)
         cmocka_unit_test(a_method_that_was_not_run_is_left_out),
         cmocka_unit_test(a_number_that_memory_lacks_is_left_out),
         cmocka_unit_test(another_scene_than_the_figures_is_no_plain_holds),
+        cmocka_unit_test(what_fails_on_the_figures_own_scene_fails),
         cmocka_unit_test(verdicts_are_counted_by_what_claims_rest_on),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
