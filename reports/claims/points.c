@@ -8,7 +8,6 @@
 #include "read/group.h"
 #include "read/options.h"
 #include "read/workload.h"
-#include "seeds.h"
 
 void claim_points_add(fm_claim_points *points, const fm_claim_point *point)
 {
@@ -51,6 +50,12 @@ void claim_points_free(fm_claim_points *points)
     *points = (fm_claim_points){ 0 };
 }
 
+bool claim_seeds_stay_apart(const fm_claim *claim)
+{
+    return claim->form == FM_CLAIM_MEAN || claim->form == FM_CLAIM_IMAGES || claim->is_required ||
+           (claim->low == claim->high && claim->tolerance == 0.0);
+}
+
 bool claim_point_same_workload(const fm_claim *claim, const fm_claim_point *a,
                                const fm_claim_point *b)
 {
@@ -58,8 +63,9 @@ bool claim_point_same_workload(const fm_claim *claim, const fm_claim_point *a,
         return a->result == b->result;
     const fm_text_list *free_columns =
         claim->form == FM_CLAIM_ORDER ? &claim->of[b->selection].own_columns : &claim->free_columns;
-    return seeds_stay_apart(claim) ? workload_same(a->result, b->result, free_columns)
-                                   : workload_same_of_any_seed(a->result, b->result, free_columns);
+    return claim_seeds_stay_apart(claim)
+               ? workload_same(a->result, b->result, free_columns)
+               : workload_same_of_any_seed(a->result, b->result, free_columns);
 }
 
 bool claim_point_same_series(const fm_claim *claim, const fm_claim_point *a,

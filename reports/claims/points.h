@@ -44,6 +44,10 @@ void claim_points_reason(char text[256], const fm_case_row *result, const char *
 void claim_points_sort(fm_claim_points *points, const fm_claim *claim);
 void claim_points_free(fm_claim_points *points);
 
+/* The claim is judged of each seed: it is an exact one (an `equals` without tolerance), or
+ * required, or of form `mean`, which takes means itself, or `images`. Of others seeds are joined,
+ * and what compares points must not look at the seed of their rows. */
+bool claim_seeds_stay_apart(const fm_claim *claim);
 /* Points of one curve: they differ in `along` and `across` only. */
 bool claim_point_same_series(const fm_claim *claim, const fm_claim_point *a,
                              const fm_claim_point *b);

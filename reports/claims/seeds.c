@@ -22,12 +22,6 @@ fm_interval seeds_widen(fm_interval mean, const double *values, size_t count)
                           mean.median + hypot(half, mean.high - mean.median) };
 }
 
-bool seeds_stay_apart(const fm_claim *claim)
-{
-    return claim->form == FM_CLAIM_MEAN || claim->form == FM_CLAIM_IMAGES || claim->is_required ||
-           (claim->low == claim->high && claim->tolerance == 0.0);
-}
-
 static bool is_same_method(const fm_case_row *a, const fm_case_row *b)
 {
     return strcmp(a->method, b->method) == 0 &&
@@ -105,7 +99,7 @@ static bool is_counted(const fm_claim_points *points, const fm_claim *claim, siz
 
 static void count_lost(fm_claim_points *points, const fm_claim *claim)
 {
-    const bool stay_apart = seeds_stay_apart(claim);
+    const bool stay_apart = claim_seeds_stay_apart(claim);
     bool is_first = true;
     for (size_t i = 0; i < points->lost_count; i++) {
         fm_claim_lost *lost = &points->lost[i];
@@ -128,7 +122,7 @@ static void count_lost(fm_claim_points *points, const fm_claim *claim)
 void seeds_join(fm_claim_points *points, const fm_claim *claim)
 {
     count_lost(points, claim);
-    if (seeds_stay_apart(claim))
+    if (claim_seeds_stay_apart(claim))
         return;
     double *values = calloc(points->count + 1, sizeof *values);
     points->failed |= values == NULL;
