@@ -145,8 +145,8 @@ static void judge_slope(judging *to, const curve *line)
     if (isfinite(slope.median))
         judging_value(to, slope, &line->points[0], &line->points[line->count - 1]);
     else
-        judging_skip(to, line->count, "no slope: values or %s are not positive, or all the same",
-                     to->claim->along);
+        judging_skip(to, line->points, line->count,
+                     "no slope: values or %s are not positive, or all the same", to->claim->along);
 }
 
 static void judge_spread(judging *to, const curve *line)
@@ -185,7 +185,7 @@ void curves_judge(judging *to)
         if (line.count >= needed)
             forms[to->claim->form].judge(to, &line);
         else
-            judging_skip(to, line.count, "only %zu of the %zu points that a curve needs",
-                         line.count, needed);
+            judging_skip(to, line.points, line.count,
+                         "only %zu of the %zu points that a curve needs", line.count, needed);
     }
 }

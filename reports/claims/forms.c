@@ -114,7 +114,7 @@ static fm_status judge_images(judging *to, fm_error *err)
         const fm_status status = picture_compare(&apart, to->rows->results->directory,
                                                  point->result->id, point->other->id, err);
         if (status == FM_UNSUPPORTED) {
-            judging_skip(to, 1, "a picture was not kept");
+            judging_skip(to, point, 1, "a picture was not kept");
             continue;
         }
         if (status != FM_OK)

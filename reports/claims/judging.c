@@ -85,10 +85,11 @@ void judging_note(judging *to, const char *format, ...)
     va_end(arguments);
 }
 
-void judging_skip(judging *to, size_t points, const char *format, ...)
+void judging_skip(judging *to, const fm_claim_point *points, size_t count, const char *format, ...)
 {
     va_list arguments;
-    to->skipped += points;
+    for (size_t i = 0; i < count; i++)
+        to->skipped += !points[i].is_incomplete;
     va_start(arguments, format);
     keep_note(to, format, arguments);
     va_end(arguments);
@@ -161,19 +162,21 @@ static size_t count_incomplete(const fm_claim_points *points)
 }
 
 /* What was left out might have decided otherwise: of all points against a claim that holds, of any
- * point for one that fails. */
+ * point for one that fails. Where no point is whole, nothing was judged. */
 static void count_points(fm_verdict *verdict, const judging *to)
 {
     const fm_claim_points *points = to->points;
     const bool is_any = to->claim->form == FM_CLAIM_ANY;
-    size_t left_out = to->skipped + count_incomplete(points);
+    const size_t left_out = to->skipped + count_incomplete(points);
     verdict->total = points->count + points->missing_count;
-    verdict->judged = points->count - (left_out < points->count ? left_out : points->count);
+    verdict->judged = points->count - left_out;
     if (verdict->judged == verdict->total)
         return;
     if (verdict->kind == FM_VERDICT_HOLDS && !is_any)
         verdict->kind = FM_VERDICT_IN_PART;
     if (verdict->kind == FM_VERDICT_FAILS && is_any)
+        verdict->kind = FM_VERDICT_UNCLEAR;
+    if (verdict->kind != FM_VERDICT_NOT_TESTABLE && verdict->judged == 0)
         verdict->kind = FM_VERDICT_UNCLEAR;
 }
 
@@ -188,6 +191,8 @@ void judging_end(fm_verdict *verdict, const judging *to)
     name_deciders(verdict, to);
     if (to->worst.kind == FM_VERDICT_UNCLEAR)
         explain_unclear(verdict, to);
+    else if (verdict->kind == FM_VERDICT_UNCLEAR && verdict->judged == 0)
+        add(verdict, "unclear: no point is whole");
     for (size_t i = 0; i < to->points->count; i++)
         unknown += !interval_is_known(&to->points->points[i].value);
     if (unknown > 0 && interval_is_known(&to->worst.measured))
@@ -197,6 +202,6 @@ void judging_end(fm_verdict *verdict, const judging *to)
     if (to->points->missing_count > 0)
         add(verdict, "%zu left out (%s)", to->points->missing_count, to->points->missing);
     if (incomplete > 0)
-        add(verdict, "%zu compared with fewer rows than are named (%s)", incomplete,
+        add(verdict, "%zu of fewer rows than were asked for (%s)", incomplete,
             to->points->incomplete);
 }

@@ -21,7 +21,7 @@ typedef struct judging {
     decision worst;
     double least, greatest; /* medians of all decisions */
     size_t count;           /* of decisions */
-    size_t skipped;         /* points that gave no decision */
+    size_t skipped;         /* points that gave no decision, but for incomplete ones */
     char note[160];         /* the first reason why something was not judged */
 } judging;
 
@@ -38,9 +38,9 @@ void judging_rise(judging *to, const fm_claim_point *point, const fm_claim_point
 void judging_step(judging *to, const fm_claim_point *point, const fm_claim_point *next);
 /* Adds a remark to the reason, as printf does; the first one is kept. */
 void judging_note(judging *to, const char *format, ...) __attribute__((format(printf, 2, 3)));
-/* So many points cannot be judged, and why. */
-void judging_skip(judging *to, size_t points, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
+/* points[count] cannot be judged, and why. */
+void judging_skip(judging *to, const fm_claim_point *points, size_t count, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
 /* The verdict, and its reason in words. */
 void judging_end(fm_verdict *verdict, const judging *to);
 

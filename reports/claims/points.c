@@ -1,5 +1,6 @@
 #include "points.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,6 +8,7 @@
 #include "read/group.h"
 #include "read/options.h"
 #include "read/workload.h"
+#include "seeds.h"
 
 void claim_points_add(fm_claim_points *points, const fm_claim_point *point)
 {
@@ -23,9 +25,29 @@ void claim_points_add(fm_claim_points *points, const fm_claim_point *point)
     points->points[points->count++] = *point;
 }
 
+void claim_points_lose(fm_claim_points *points, const fm_claim_lost *row)
+{
+    fm_claim_lost *grown = reallocarray(points->lost, points->lost_count + 1, sizeof *grown);
+    if (grown == NULL) {
+        points->failed = true;
+        return;
+    }
+    points->lost = grown;
+    points->lost[points->lost_count++] = *row;
+}
+
+void claim_points_reason(char text[256], const fm_case_row *result, const char *why)
+{
+    snprintf(text, 256, "%.60s%s%.12g: %.120s",
+             result->look.title != NULL ? result->look.title : result->method,
+             isnan(result->k) ? " n " : " k ",
+             isnan(result->k) ? result->metric[FM_METRIC_N] : result->k, why);
+}
+
 void claim_points_free(fm_claim_points *points)
 {
     free(points->points);
+    free(points->lost);
     *points = (fm_claim_points){ 0 };
 }
 
@@ -34,9 +56,10 @@ bool claim_point_same_workload(const fm_claim *claim, const fm_claim_point *a,
 {
     if (a->result == NULL || b->result == NULL)
         return a->result == b->result;
-    return workload_same(a->result, b->result,
-                         claim->form == FM_CLAIM_ORDER ? &claim->of[b->selection].own_columns
-                                                       : &claim->free_columns);
+    const fm_text_list *free_columns =
+        claim->form == FM_CLAIM_ORDER ? &claim->of[b->selection].own_columns : &claim->free_columns;
+    return seeds_stay_apart(claim) ? workload_same(a->result, b->result, free_columns)
+                                   : workload_same_of_any_seed(a->result, b->result, free_columns);
 }
 
 bool claim_point_same_series(const fm_claim *claim, const fm_claim_point *a,

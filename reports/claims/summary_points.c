@@ -15,19 +15,12 @@ typedef struct points_job {
     const fm_claim_rows *rows;
 } points_job;
 
-static void name_row(char text[256], const fm_case_row *result, const char *why)
-{
-    snprintf(text, 256, "%.60s%s%.12g: %.120s",
-             result->look.title != NULL ? result->look.title : result->method,
-             isnan(result->k) ? " n " : " k ",
-             isnan(result->k) ? result->metric[FM_METRIC_N] : result->k, why);
-}
-
 /* A row of `of` gives no point: because of `result`, itself or the one it is compared with. */
-static void note_missing(points_job *job, const fm_case_row *result, const char *why)
+static void note_missing(points_job *job, const fm_claim_point *point, const fm_case_row *result,
+                         const char *why)
 {
-    if (job->points->missing_count++ == 0)
-        name_row(job->points->missing, result, why);
+    claim_points_lose(job->points,
+                      &(fm_claim_lost){ .point = *point, .lacks = result, .why = why });
 }
 
 /* One of several rows that the point is compared with has no value. */
@@ -36,7 +29,7 @@ static void note_incomplete(points_job *job, fm_claim_point *point, const fm_cas
 {
     point->is_incomplete = true;
     if (job->points->incomplete[0] == '\0')
-        name_row(job->points->incomplete, result, why);
+        claim_points_reason(job->points->incomplete, result, why);
 }
 
 /* Why a row has no value. */
@@ -126,6 +119,8 @@ static bool operand(fm_interval *value, fm_claim_point *point, points_job *job,
 {
     if (selection->is_formula) {
         *value = value_by_formula(selection, point->result);
+        if (!isfinite(value->median))
+            note_missing(job, point, point->result, "lacks a number of the formula");
         return isfinite(value->median);
     }
     const partner found = find_partner(job, selection, point->result);
@@ -137,9 +132,9 @@ static bool operand(fm_interval *value, fm_claim_point *point, points_job *job,
     if (found.result != NULL)
         return true;
     if (found.failed != NULL)
-        note_missing(job, found.failed, why_missing(found.failed));
+        note_missing(job, point, found.failed, why_missing(found.failed));
     else
-        note_missing(job, point->result, "nothing measured to compare it with");
+        note_missing(job, point, point->result, "nothing measured to compare it with");
     return false;
 }
 
@@ -159,7 +154,7 @@ static bool evaluate(fm_claim_point *point, points_job *job, const fm_claim_sele
         return operand(&other, point, job, &claim->over);
     point->value = value_measured(selection, job->rows, point->result);
     if (!isfinite(point->value.median)) {
-        note_missing(job, point->result, why_missing(point->result));
+        note_missing(job, point, point->result, why_missing(point->result));
         return false;
     }
     if (claim->has_minus) {
@@ -175,6 +170,8 @@ static bool evaluate(fm_claim_point *point, points_job *job, const fm_claim_sele
         other = interval_difference(other, less);
         point->value = interval_ratio(point->value, other);
     }
+    if (!isfinite(point->value.median))
+        note_missing(job, point, point->result, "divided by 0");
     return isfinite(point->value.median);
 }
 

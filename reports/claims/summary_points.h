@@ -5,8 +5,8 @@
 #include "points.h"
 
 /* Adds the points of the claim's selection of that index. Each row that it means is combined with
- * the rows of `minus`, `over` and `over_minus` of its workload; one that gives no point is counted
- * as missing, once, with the reason. Of selections that take the least or the greatest there is one
+ * the rows of `minus`, `over` and `over_minus` of its workload; one that gives no point is lost,
+ * with the reason. Of selections that take the least or the greatest there is one
  * point a workload. */
 void summary_points_add(fm_claim_points *points, const fm_claim *claim, const fm_claim_rows *rows,
                         size_t index);

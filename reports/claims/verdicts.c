@@ -69,14 +69,15 @@ static void explain(fm_verdict *verdict, const verdicts_job *job, const fm_claim
                                          [FM_CLAIM_HAZARDS] =
                                              "needs a GPU, or feed compute-adjacent",
                                          [FM_CLAIM_SOFTWARE] = "needs a software rasteriser" };
+    const size_t cases = points->lost_count > 0 ? points->lost_count : points->missing_count;
     *verdict = (fm_verdict){ .kind = FM_VERDICT_NOT_TESTABLE, .measured = { NAN, NAN, NAN } };
     if (claim->where != FM_CLAIM_ANY_DEVICE &&
         is_software(job, device) == (claim->where != FM_CLAIM_SOFTWARE))
         snprintf(verdict->reason, sizeof verdict->reason, "%s%s%s", needs[claim->where],
                  claim->why[0] != '\0' ? ": " : "", claim->why);
-    else if (points->missing_count > 0)
-        snprintf(verdict->reason, sizeof verdict->reason, "%zu case%s without a result (%s)",
-                 points->missing_count, points->missing_count == 1 ? "" : "s", points->missing);
+    else if (cases > 0)
+        snprintf(verdict->reason, sizeof verdict->reason, "%zu case%s without a result (%s)", cases,
+                 cases == 1 ? "" : "s", points->missing);
     else
         snprintf(verdict->reason, sizeof verdict->reason,
                  "no case of this run is what the claim is about");
@@ -101,33 +102,75 @@ static fm_status make_points(fm_claim_points *points, const fm_claim *claim,
     return FM_OK;
 }
 
+/* A block of the figure has the point's scene, or it is by formula. */
+static bool is_at_home(const fm_paper_figure *figure, const fm_claim_point *point)
+{
+    return point->result == NULL || figure->own_scenes.count == 0 ||
+           text_list_has(&figure->own_scenes, point->result->scene);
+}
+
 /* A row of a scene that no block of the figure has; NULL: there is none. */
 static const char *other_scene(const fm_paper_figure *figure, const fm_claim_points *points)
 {
-    for (size_t i = 0; i < points->count; i++) {
-        const fm_case_row *result = points->points[i].result;
-        if (result != NULL && figure->own_scenes.count > 0 &&
-            !text_list_has(&figure->own_scenes, result->scene))
-            return result->scene;
-    }
+    for (size_t i = 0; i < points->count; i++)
+        if (!is_at_home(figure, &points->points[i]))
+            return points->points[i].result->scene;
     return NULL;
 }
 
-/* What holds on another scene than the paper's, or ours for it, is no plain "holds"; what fails
- * there says nothing of the claim, unless it must hold everywhere. */
-static void place_verdict(fm_verdict *verdict, const fm_claim *claim, const char *scene)
+static void say_where(fm_verdict *verdict, const char *before, const char *scene, const char *after)
 {
     const size_t used = strlen(verdict->reason);
+    snprintf(verdict->reason + used, sizeof verdict->reason - used,
+             "; %s%.60s, which is no scene of this figure%s", before, scene, after);
+}
+
+/* What fails on another scene says nothing of the claim: the points of the figure's own scenes
+ * decide, if there are any. */
+static fm_status judge_at_home(fm_verdict *verdict, const verdicts_job *job, const fm_claim *claim,
+                               const fm_claim_rows *rows, const fm_claim_points *points)
+{
+    const char *scene = other_scene(job->figure, points);
+    fm_status status = FM_OK;
+    fm_claim_points own = *points; /* all but its points are borrowed */
+    own.count = 0;
+    own.points = calloc(points->count, sizeof *own.points);
+    if (own.points == NULL)
+        return fm_fail(job->err, FM_NO_MEMORY, "claim %s: %zu points", claim->id, points->count);
+    for (size_t i = 0; i < points->count; i++)
+        if (is_at_home(job->figure, &points->points[i]))
+            own.points[own.count++] = points->points[i];
+    if (own.count > 0)
+        status = claim_judge(verdict, claim, rows, &own, job->err);
+    if (status == FM_OK && own.count > 0) {
+        verdict->total += points->count - own.count;
+        say_where(verdict, "left out: points on ", scene, "");
+        if (verdict->kind == FM_VERDICT_HOLDS && claim->form != FM_CLAIM_ANY)
+            verdict->kind = FM_VERDICT_IN_PART;
+    } else if (status == FM_OK) {
+        verdict->is_elsewhere = true;
+        verdict->kind = FM_VERDICT_NOT_TESTABLE;
+        say_where(verdict, "on ", scene, ": it fails there");
+    }
+    free(own.points);
+    return status;
+}
+
+/* What holds on another scene than the paper's, or ours for it, is no plain "holds"; what fails
+ * must fail on the figure's own, unless it must hold everywhere. */
+static fm_status place_verdict(fm_verdict *verdict, const verdicts_job *job, const fm_claim *claim,
+                               const fm_claim_rows *rows, const fm_claim_points *points)
+{
+    const char *scene = other_scene(job->figure, points);
     if (scene == NULL)
-        return;
+        return FM_OK;
+    if (verdict->kind == FM_VERDICT_FAILS && !claim->is_required)
+        return judge_at_home(verdict, job, claim, rows, points);
     verdict->is_elsewhere = true;
-    snprintf(verdict->reason + used, sizeof verdict->reason - used, "; on %.60s, %s%s", scene,
-             "which is no scene of this figure",
-             verdict->kind == FM_VERDICT_FAILS && !claim->is_required ? ": it fails there" : "");
+    say_where(verdict, "on ", scene, "");
     if (verdict->kind == FM_VERDICT_HOLDS)
         verdict->kind = FM_VERDICT_IN_PART;
-    else if (verdict->kind == FM_VERDICT_FAILS && !claim->is_required)
-        verdict->kind = FM_VERDICT_NOT_TESTABLE;
+    return FM_OK;
 }
 
 static fm_status judge_on(fm_verdict *verdict, const verdicts_job *job, const fm_claim *claim,
@@ -145,7 +188,7 @@ static fm_status judge_on(fm_verdict *verdict, const verdicts_job *job, const fm
     else if (status == FM_OK)
         status = claim_judge(verdict, claim, &rows, &points, job->err);
     if (status == FM_OK && points.count > 0)
-        place_verdict(verdict, claim, other_scene(job->figure, &points));
+        status = place_verdict(verdict, job, claim, &rows, &points);
     claim_points_free(&points);
     return status;
 }

@@ -62,12 +62,15 @@
  * testable here` when there is no point. Where rows gave no result, a curve had too few points, or
  * a method that the claim lists was not run, it `holds for 3 of 10 points`; what fails, fails. Of
  * form any it is the other way round: one point is enough to hold, and not all failing is unclear.
+ * Where each point lacks a seed or a method to compare with, it is unclear.
  * On a scene that no block of the figure's `run` and `large` has (--smoke and --scene put it there)
- * it `holds on another scene`; what fails there is `not testable here`, unless it is required.
- * Intervals are by launches (base/stats.h). A time, or a
- * ratio or rate of times, has none if there was one launch, and a claim that hangs on it is
- * unclear. Bytes, counts, errors and modelled numbers are exact, and need one launch only; which
- * numbers are times says `is_timed` in model/metrics.c. */
+ * it `holds on another scene`; if it fails, the points of the figure's own scenes decide alone, and
+ * where there are none it is `not testable here`, unless it is required.
+ *
+ * Intervals are by launches (base/stats.h). A time, or a ratio or rate of times, has none if there
+ * was one launch, and a claim that hangs on it is unclear. Bytes, counts, errors and modelled
+ * numbers are exact, and need one launch only; which numbers are times says `is_timed` in
+ * model/metrics.c. */
 #ifndef FM_CLAIM_H
 #define FM_CLAIM_H
 

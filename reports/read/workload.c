@@ -65,13 +65,21 @@ static bool same_device(const fm_case_row *a, const fm_case_row *b)
            strcmp(a->device_name, b->device_name) == 0;
 }
 
-bool workload_same(const fm_case_row *a, const fm_case_row *b, const fm_text_list *free_columns)
+bool workload_same_of_any_seed(const fm_case_row *a, const fm_case_row *b,
+                               const fm_text_list *free_columns)
 {
     for (size_t i = 0; i < WORKLOAD_COLUMNS; i++)
-        if (!is_free(free_columns, workload_columns[i].name, a) && !same_column(a, b, i))
+        if (strcmp(workload_columns[i].name, "seed") != 0 &&
+            !is_free(free_columns, workload_columns[i].name, a) && !same_column(a, b, i))
             return false;
     return (text_list_has(free_columns, "device") || same_device(a, b)) &&
            options_are_same(a->options, b->options, FM_OPTIONS_OF_SCENE, free_columns);
+}
+
+bool workload_same(const fm_case_row *a, const fm_case_row *b, const fm_text_list *free_columns)
+{
+    return (text_list_has(free_columns, "seed") || strcmp(a->seed, b->seed) == 0) &&
+           workload_same_of_any_seed(a, b, free_columns);
 }
 
 void workload_key(char key[WORKLOAD_KEY_BYTES], const fm_case_row *result,

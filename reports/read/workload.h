@@ -8,6 +8,9 @@
 /* Same scene, size, fragments, device and feed, but for the free columns (NULL: none). An empty k
  * or n agrees with any; where n = r k, n is free with k. */
 bool workload_same(const fm_case_row *a, const fm_case_row *b, const fm_text_list *free_columns);
+/* The same, whatever their seeds are. */
+bool workload_same_of_any_seed(const fm_case_row *a, const fm_case_row *b,
+                               const fm_text_list *free_columns);
 
 enum { WORKLOAD_KEY_BYTES = 1024 };
 /* Cases of different keys are not of the same workload; those of one key may be. What does not fit

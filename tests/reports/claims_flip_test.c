@@ -257,9 +257,10 @@ static void try_shape(flipping *at, const shape *is)
     const fm_verdicts_desc desc = { results, NULL, figures, 1 };
     if (verdicts_make(&verdicts, &desc, &err) != FM_OK)
         fail_msg("%s: %s", at->claim->id, err.message);
-    const fm_verdict_kind kind = verdicts.items[0].verdict.kind;
-    at->has_held |= kind == FM_VERDICT_HOLDS || kind == FM_VERDICT_IN_PART;
-    at->has_failed |= kind == FM_VERDICT_FAILS;
+    const fm_verdict *made = &verdicts.items[0].verdict;
+    at->has_held |= made->kind == FM_VERDICT_HOLDS ||
+                    (made->kind == FM_VERDICT_IN_PART && made->judged > 0 && !made->is_elsewhere);
+    at->has_failed |= made->kind == FM_VERDICT_FAILS;
     verdicts_free(&verdicts);
     result_files_close(results);
     text_free(&memory);
@@ -369,8 +370,8 @@ static void each_claim_can_hold_and_can_fail(void **state)
     assert_int_equal(stuck, 0);
 }
 
-/* The first holds whatever is measured, the second is of no case, the third hangs on its numbers.
- */
+/* The first holds whatever is measured, the second is of no case, the third hangs on its numbers;
+ * the fourth is compared with a method that the figure does not run. */
 static void a_claim_that_cannot_fail_is_found(void **state)
 {
     char directory[] = "/tmp/fragmark-flip-XXXXXX", path[96];
@@ -384,12 +385,15 @@ static void a_claim_that_cannot_fail_is_found(void **state)
         "  - { id: F-1, text: t, at_most: 1, of: { method: kb }, over: { method: kb } }\n"
         "  - { id: F-2, text: t, at_most: 1, of: { method: kb, culling: occupancy } }\n"
         "  - { id: F-3, text: t, at_most: 1, of: { method: kb }, "
-        "over: { method: kplus-array } }\n");
+        "over: { method: kplus-array } }\n"
+        "  - { id: F-4, text: t, at_most: 1, of: { method: kb }, "
+        "over: { method: [kplus-array, exact], take: least } }\n");
     snprintf(path, sizeof path, "%s/f-1.yml", directory);
     assert_true(flip_open(&of, path, FM_PROGRAM));
     assert_false(flips(&of, &of.figure->claims[0]));
     assert_false(flips(&of, &of.figure->claims[1]));
     assert_true(flips(&of, &of.figure->claims[2]));
+    assert_false(flips(&of, &of.figure->claims[3]));
     flip_close(&of);
     kit_remove_directory(directory);
 }

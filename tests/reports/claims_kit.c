@@ -48,9 +48,9 @@ static void add_summary(fm_text *csv, const fake *row, int index)
     fm_interval frame = stats_interval(times, (size_t)launches);
     if (launches == 1) /* as older programs wrote them: of the frames */
         frame = (fm_interval){ row->frame_ms, 0.99 * row->frame_ms, 1.01 * row->frame_ms };
-    text_add(csv, "1,c%d,%s,,%s,1,%s,%s,%s,layers,64,32,%g,", index, status, row->method, device,
+    text_add(csv, "1,c%d,%s,,%s,1,%s,%s,%s,%s,64,32,%g,", index, status, row->method, device,
              strcmp(device, "soft") == 0 ? "llvmpipe" : "H100", given(row->feed, "raster"),
-             row->n > 0.0 ? row->n : 16.0);
+             given(row->scene, "layers"), row->n > 0.0 ? row->n : 16.0);
     add_given(csv, row->k);
     add_given(csv, row->r);
     text_add(csv, "%g,1,1,random,%u,%s,%d,", row->pixel_density, row->seed > 0 ? row->seed : 1,

@@ -29,8 +29,9 @@ typedef struct fake {
     double noise;                                 /* 0: one percent */
     int launches;                                 /* 0: 6 */
     double missing, bytes;
-    unsigned seed; /* 0: 1 */
-    double n, r;   /* 0: n is 16, r is empty */
+    unsigned seed;     /* 0: 1 */
+    double n, r;       /* 0: n is 16, r is empty */
+    const char *scene; /* NULL: layers */
 } fake;
 
 #define ROW(of, keeps, density, time_ms)                                                           \

@@ -106,6 +106,29 @@ static void what_is_exact_is_so_of_each_seed(void **state)
                      FM_VERDICT_UNCLEAR);
 }
 
+/* At k 4 seed 1 has no value: that point's row is of seed 2, those of k 8 and 16 are of seed 1. */
+static void a_seed_without_a_value_does_not_part_points(void **state)
+{
+    (void)state;
+    const fakes rows = { { { ROW("b", 4, 0.25, 90), .status = "crash" },
+                           { ROW("b", 4, 0.25, 90), .seed = 2 },
+                           { ROW("b", 8, 0.25, 20) },
+                           { ROW("b", 8, 0.25, 20), .seed = 2 },
+                           { ROW("b", 16, 0.25, 40) },
+                           { ROW("b", 16, 0.25, 40), .seed = 2 },
+                           { ROW("a", 4, 0.25, 10) },
+                           { ROW("a", 4, 0.25, 10), .seed = 2 } } };
+    static const char *const claims[] = {
+        "form: monotone\nalong: k\ngoes: rises\nof: { method: b }\n",
+        "form: order\nof: [{ method: b }, { method: a }]\n",
+    };
+    for (size_t i = 0; i < sizeof claims / sizeof claims[0]; i++) {
+        const fm_verdict verdict = judge_beside(claims[i], &rows, NULL).verdict;
+        if (verdict.kind != FM_VERDICT_FAILS)
+            fail_msg("%s: %s", claims[i], verdict.reason);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -114,6 +137,7 @@ int main(void)
         cmocka_unit_test(over_minus_is_taken_from_over),
         cmocka_unit_test(each_form_is_as_sure_as_seeds_agree),
         cmocka_unit_test(what_is_exact_is_so_of_each_seed),
+        cmocka_unit_test(a_seed_without_a_value_does_not_part_points),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

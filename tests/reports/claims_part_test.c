@@ -48,6 +48,81 @@ static void a_curve_of_too_few_points_is_left_out(void **state)
            "holds for 2 of 3 points");
 }
 
+/* b at k 4 and 8 with five seeds: of k 4 two are lost, of k 8 what `lost8` says. */
+static fakes seeds_of(unsigned lost8)
+{
+    fakes rows = { 0 };
+    for (unsigned i = 0; i < 10; i++)
+        rows.rows[i] = (fake){ ROW("b", i < 5 ? 4 : 8, 0.25, 5), .seed = i % 5 + 1,
+                               .status = i == 0 || i == 3 || i >= 10 - lost8 ? "crash" : NULL };
+    return rows;
+}
+
+static void seeds_of_a_point_are_counted_once(void **state)
+{
+    (void)state;
+    const fakes whole = seeds_of(0), none = seeds_of(5);
+    expect("at_most: 9\nof: { method: b }\n", &whole, "holds for 1 of 2 points");
+    expect("at_most: 9\nof: { method: b, k: 8 }\n", &whole, "holds");
+    expect("at_most: 9\nof: { method: b, k: 4 }\n", &whole, "unclear");
+    expect("form: mean\nat_most: 9\nof: { method: b }\n", &whole, "holds for 8 of 10 points");
+    expect("form: mean\nat_most: 9\nof: { method: b }\n", &none, "holds for 3 of 10 points");
+    fakes other = none;
+    other.rows[0].status = other.rows[3].status = NULL;
+    expect("at_most: 9\nof: { method: b }\n", &other, "holds for 1 of 2 points");
+}
+
+/* Each method of a selection that takes the least of several has its own row that is lost. */
+static void seeds_that_are_lost_to_the_least_are_counted_once(void **state)
+{
+    (void)state;
+    fakes rows = seeds_of(0);
+    static const char claim[] = "at_most: 9\nof: { method: [a, b], take: least }\n";
+    for (int i = 0; i < 5; i++) {
+        rows.rows[i].method = "a";
+        rows.rows[i].k = 8;
+        rows.rows[i].status = "crash";
+    }
+    expect(claim, &rows, "holds for 1 of 2 points");
+    for (int i = 5; i < 10; i++)
+        rows.rows[i].status = i < 7 ? "crash" : NULL;
+    rows.rows[10] = (fake){ ROW("b", 16, 0.25, 5) };
+    expect(claim, &rows, "holds for 1 of 3 points");
+}
+
+/* A curve of one point, which lacks one of the methods that it is compared with. */
+static void what_is_left_out_twice_is_counted_once(void **state)
+{
+    (void)state;
+    const fakes rows = { { { ROW("a", 4, 0.25, 5) },
+                           { ROW("a", 8, 0.25, 10) },
+                           { ROW("a", 4, 0.75, 5) },
+                           { ROW("b", 4, 0.25, 5) },
+                           { ROW("b", 8, 0.25, 5) },
+                           { ROW("b", 4, 0.75, 5) },
+                           { ROW("c", 4, 0.25, 5) },
+                           { ROW("c", 8, 0.25, 5) },
+                           { ROW("c", 4, 0.75, 5), .status = "crash" } } };
+    expect("form: monotone\nalong: k\ngoes: rises\nof: { method: a }\n"
+           "over: { method: [b, c], take: least }\n",
+           &rows, "holds for 2 of 3 points");
+}
+
+/* b has 0 bytes at k 8, and no k in its third row. */
+static void a_value_that_is_not_finite_is_left_out(void **state)
+{
+    (void)state;
+    const fakes rows = { { { ROW("b", 4, 0.25, 5), .bytes = 8 },
+                           { ROW("b", 8, 0.25, 5) },
+                           { ROW("b", 0, 0.75, 5), .bytes = 8 } } };
+    expect("at_least: 1\nof: { method: b, metric: fragments_generated }\n"
+           "over: { metric: bytes_allocated }\n",
+           &rows, "holds for 2 of 3 points");
+    expect("at_most: 1\nof: { method: b, metric: bytes_allocated }\n"
+           "over: { formula: { per_pixel_k: 8 } }\n",
+           &rows, "holds for 2 of 3 points");
+}
+
 static void any_needs_all_points_to_fail(void **state)
 {
     (void)state;
@@ -65,7 +140,12 @@ static void rows_to_compare_with_may_lack(void **state)
     static const char claim[] = "at_least: 1.5\nof: { method: a }\n"
                                 "over: { method: [b, c], take: least }\n";
     fakes rows = part_of(10);
-    expect(claim, &rows, "holds for 0 of 3 points");
+    expect(claim, &rows, "unclear");
+    expect("at_least: 3\nof: { method: a }\nover: { method: [b, c], take: least }\n", &rows,
+           "unclear");
+    expect("form: any\nat_least: 1.5\nof: { method: a }\n"
+           "over: { method: [b, c], take: least }\n",
+           &rows, "unclear");
     rows.rows[6] = (fake){ ROW("c", 4, 0.25, 6) };
     rows.rows[7] = (fake){ ROW("c", 8, 0.25, 11) };
     rows.rows[8] = (fake){ ROW("c", 16, 0.25, 21) };
@@ -93,18 +173,18 @@ static void a_number_that_memory_lacks_is_left_out(void **state)
                      FM_VERDICT_IN_PART);
 }
 
-/* All rows are of scene `layers`. */
-static void judge_figure(char words[FM_VERDICT_WORDS_BYTES], const char *run, const char *claim)
+/* The figure has the first three rows. */
+static void judge_figure(char words[FM_VERDICT_WORDS_BYTES], const fakes *rows, const char *run,
+                         const char *claim)
 {
     fixture with;
     fm_claim_results verdicts;
     fm_text text = { 0 };
-    const fakes rows = part_of(10);
     text_add(&text,
              "id: f-1\npaper: f\ntitle: t\n%scharts:\n  - { id: c, title: c, x: k, y: frame_ms }\n"
              "claims:\n  - { id: F-1, text: t, of: { method: a }, %s }\n",
              run, claim);
-    fixture_open(&with, &rows, text.bytes, "figure,case_id\nf-1,c0\nf-1,c1\n");
+    fixture_open(&with, rows, text.bytes, "figure,case_id\nf-1,c0\nf-1,c1\nf-1,c2\n");
     const fm_paper_figure *const figures[] = { with.figure };
     const fm_verdicts_desc desc = { with.results, NULL, figures, 1 };
     assert_int_equal(verdicts_make(&verdicts, &desc, NULL), FM_OK);
@@ -119,6 +199,7 @@ static void another_scene_than_the_figures_is_no_plain_holds(void **state)
     (void)state;
     static const char own[] = "run:\n  - { scenes: [bunny] }\n  - { scenes: [hotel, layers] }\n";
     static const char other[] = "run:\n  - { scenes: [bunny] }\n  - { scenes: [hotel] }\n";
+    const fakes rows = part_of(10);
     static const char large[] = "run: { scenes: [bunny] }\nlarge:\n  - { scenes: [layers] }\n";
     static const struct {
         const char *run, *claim, *words;
@@ -131,7 +212,30 @@ static void another_scene_than_the_figures_is_no_plain_holds(void **state)
                 { other, "at_most: 1, required: true", "fails" } };
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
         char words[FM_VERDICT_WORDS_BYTES];
-        judge_figure(words, all[i].run, all[i].claim);
+        judge_figure(words, &rows, all[i].run, all[i].claim);
+        assert_string_equal(words, all[i].words);
+    }
+}
+
+/* a takes 10, 20 and 40, the last of them on a scene that the figure has not. */
+static void what_fails_on_the_figures_own_scene_fails(void **state)
+{
+    (void)state;
+    static const char run[] = "run: { scenes: [layers] }\n";
+    static const struct {
+        const char *claim, *words;
+    } all[] = { { "at_most: 15", "fails" },
+                { "at_most: 25", "holds for 2 of 3 points" },
+                { "at_most: 45", "holds on another scene" },
+                { "at_most: 25, required: true", "fails" },
+                { "form: mean, at_most: 17", "holds for 2 of 3 points" },
+                { "form: mean, at_most: 13", "fails" },
+                { "form: any, at_most: 5", "fails" } };
+    fakes rows = part_of(10);
+    rows.rows[2].scene = "bunny";
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
+        char words[FM_VERDICT_WORDS_BYTES];
+        judge_figure(words, &rows, run, all[i].claim);
         assert_string_equal(words, all[i].words);
     }
 }
@@ -173,11 +277,16 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(points_left_out_are_no_plain_holds),
         cmocka_unit_test(a_curve_of_too_few_points_is_left_out),
+        cmocka_unit_test(seeds_of_a_point_are_counted_once),
+        cmocka_unit_test(seeds_that_are_lost_to_the_least_are_counted_once),
+        cmocka_unit_test(what_is_left_out_twice_is_counted_once),
+        cmocka_unit_test(a_value_that_is_not_finite_is_left_out),
         cmocka_unit_test(any_needs_all_points_to_fail),
         cmocka_unit_test(rows_to_compare_with_may_lack),
         cmocka_unit_test(a_method_that_was_not_run_is_left_out),
         cmocka_unit_test(a_number_that_memory_lacks_is_left_out),
         cmocka_unit_test(another_scene_than_the_figures_is_no_plain_holds),
+        cmocka_unit_test(what_fails_on_the_figures_own_scene_fails),
         cmocka_unit_test(verdicts_are_counted_by_what_claims_rest_on),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
