@@ -1,5 +1,5 @@
-// Pixels in the order of tiles of 8 x 8 (narrower at the border: no number is left out): how many lie in the tiles before
-// the pixel's own, how many in its own, and how many there before it.
+// Pixels in the order of tiles of 8 x 8 (narrower at the border: no number is left out): how many lie in
+// the tiles before the pixel's own, how many in its own, and how many there before it.
 uvec3 tile_place(uvec2 pixel)
 {
     uvec2 corner = pixel & ~7u, within = pixel - corner;

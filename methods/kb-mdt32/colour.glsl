@@ -10,5 +10,6 @@ void store(uvec2 pixel, float depth, uint colour)
     uint key = key_of(depth);
     if (key > key_at(pixel, K - 1u)) // most fragments, where k is small
         return;
-    put_colour(pixel, slot_by_search(pixel, key), colour); // it is there: all keys up to the last slot's are
+    put_colour(pixel, slot_by_search(pixel, key), colour); // all keys up to the last slot's are there, for both
+                                                           // passes rasterise by one vertex shader
 }

@@ -13,7 +13,7 @@ uint locator(uvec2 record)
     uint h = record.x * 0x9E3779B1u ^ (record.y * 0x85EBCA77u + 0x165667B1u);
     h = (h ^ h >> 15) * 0x2C1B3C6Du;
     h = (h ^ h >> 12) * 0x297A2D39u;
-    return (h ^ h >> 15) % P;
+    return reduced(h ^ h >> 15);
 }
 uvec4 halves(uvec2 record)
 {

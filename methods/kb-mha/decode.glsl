@@ -23,7 +23,7 @@ uvec4 each_times(uvec4 a, uint b)
 }
 uvec4 each_minus(uvec4 a, uvec4 b)
 {
-    return (a + P - b) % P;
+    return min(a - b, a + P - b);
 }
 
 // w code(r): the weight is word 0, and all others follow.

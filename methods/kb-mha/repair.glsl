@@ -59,7 +59,7 @@ bool find_damage(out uint differs[CODE_WORDS], uvec2 pixel, uint count)
 }
 
 // As many copies as are there: what was told as pushed out twice may not be there at all.
-void take_out(inout uint count, damage found)
+void take_out(uint count, damage found)
 {
     int wanted = -found.weight;
     FM_LOOP for (uint i = 0u; i < count; ++i)
@@ -67,7 +67,6 @@ void take_out(inout uint count, damage found)
             sorted[i].x = FM_EMPTY_BITS;
             --wanted;
         }
-    whole_records(count);
 }
 // Among records in order; of more than K the nearest stay.
 void add(inout uint count, damage found)
@@ -99,15 +98,15 @@ bool repair(uvec2 pixel, inout uint count)
     bool is_damaged = find_damage(differs, pixel, count);
     bool is_known = !is_damaged || decode(one, other, differs);
     bool is_mended = is_damaged && is_known;
-    if (is_mended) {
-        take_out(count, one);
-        take_out(count, other);
+    if (is_mended) { // in loops, so that the code is there once
+        FM_LOOP for (uint i = 0u; i < 2u; ++i)
+            take_out(count, i == 0u ? one : other);
+        whole_records(count);
     }
     sort_fragments(count);
-    if (is_mended) {
-        add(count, one);
-        add(count, other);
-    }
+    if (is_mended)
+        FM_LOOP for (uint i = 0u; i < 2u; ++i)
+            add(count, i == 0u ? one : other);
     bool is_right = is_known && are_nearest(pixel, count);
     if (!is_right)
         fm_unrepaired();

@@ -1,7 +1,7 @@
 #include "kplus-dynamic/histogram.glsl"
 
-// The largest k whose buffers fit: 8 k N + 8 N (records; counters and locks), histogram and choice. In words
-// of 4 bytes, and k N in 32 bits.
+// The largest k whose buffers fit as the article books them, whatever count_in is: 8 k N + 8 N (records; counters
+// and locks), histogram and choice. In words of 4 bytes, and k N in 32 bits.
 uint most_by_memory()
 {
     const uint pixels = uint(FM_PIXELS), words = uint(MEMORY_MIB) << 18;

@@ -1,6 +1,5 @@
 #include "s-buffer/bins.glsl"
 #include "kplus-sb/slot.glsl"
-
 #include "common/nearest_word.glsl"
 
 // From local to final addresses; counters start again; slot 0 of a deep pixel is at infinity.

@@ -196,12 +196,12 @@ static fm_status check_flat_option(const fm_checked_method *check, const fm_pass
 /* One word for each pixel, whichever of its name it is. */
 static bool is_word_a_pixel(const fm_resource *r)
 {
-    const fm_extent one = { .per_pixel = 1 };
+    static const fm_extent one = { .per_pixel = 1 };
     if (r->kind == FM_RESOURCE_IMAGE)
         return r->format == FM_FORMAT_R32UI && !image_is_array(r) && r->samples <= 1 &&
                r->samples_per_k == 0 && r->samples_option == NULL && !r->ping_pong;
     return r->element == FM_ELEMENT_UINT && r->sizing == FM_SIZE_FIXED && !r->ping_pong &&
-           memcmp(&r->extent, &one, sizeof one) == 0;
+           r->shares == NULL && memcmp(&r->extent, &one, sizeof one) == 0;
 }
 
 static fm_status check_lock_word(const fm_checked_method *check, const fm_pass *pass, fm_error *err)
@@ -226,6 +226,9 @@ static fm_status check_lock_word(const fm_checked_method *check, const fm_pass *
                            "FM_ELEMENT_UINT, or an image of FM_FORMAT_R32UI with one layer and "
                            "one sample",
                            word);
+        if (r->shares != NULL && strcmp(r->shares, word) == 0)
+            return fm_fail(err, FM_INVALID, "lock_word '%s': '%s' shares its memory", word,
+                           r->name);
     }
     return pass->lock_word_option != NULL
                ? check_option_of(check, "lock_word_option", pass->lock_word_option, "lock", err)

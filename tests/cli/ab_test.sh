@@ -28,8 +28,8 @@ mkdir -p "$work/base" "$work/fat" "$work/broken" "$work/build/methods"
 for folder in base fat broken build/methods; do cp -rL "$methods/kplus-heap" "$work/$folder/"; done
 cp -rL "$methods/ab-array" "$work/base/"
 cp -rL "$methods/ab-array" "$work/broken/"
-# Four more bytes a pixel.
-sed 's/\(\.name = "counters", \.extent = { \.per_pixel = \)1/\12/' "$source/methods/kplus-heap/method.c" >"$work/fat.c"
+# Eight more bytes a pixel.
+sed 's/\.extent = { \.per_pixel_k = 1 }/.extent = { .per_pixel = 1, .per_pixel_k = 1 }/' "$source/methods/kplus-heap/method.c" >"$work/fat.c"
 ! cmp -s "$work/fat.c" "$source/methods/kplus-heap/method.c" || fail "kplus-heap is not as it was: the copy has no more bytes"
 "$compiler" -shared -fPIC -fvisibility=hidden -I"$source/runner/include" -o "$work/fat/kplus-heap/kplus-heap.so" "$work/fat.c"
 echo 'no shader' >"$work/broken/kplus-heap/store.glsl"

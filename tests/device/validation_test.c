@@ -22,14 +22,17 @@ static void expect_silence(fm_device *device, const char *where)
         fail_msg("%s: %u messages, first: %s", where, count, first);
 }
 
-/* Two frames of the timed build and one of the checked one. */
-static void run_method(kit_scene *scene, const fm_method_desc *method, const char *texts)
+/* Two frames of the timed build and one of the checked one, on each of these feeds that the method
+ * has; if it has none of them, on all that it has. */
+static void run_method(kit_scene *scene, const fm_method_desc *method, uint32_t feeds,
+                       const char *texts)
 {
+    const uint32_t all = kit_feeds(method), own = (all & feeds) != 0 ? all & feeds : all;
     for (uint32_t feed = FM_FEED_RASTER; feed <= FM_FEED_TRIANGLES; feed <<= 1) {
         const kit_way way = { method->id, feed, texts };
         fm_measurement m;
         char where[256];
-        if ((kit_feeds(method) & feed) == 0)
+        if ((own & feed) == 0)
             continue;
         kit_tell(where, &way);
         kit_measure(&m, scene, &way);
@@ -38,7 +41,13 @@ static void run_method(kit_scene *scene, const fm_method_desc *method, const cha
     }
 }
 
-static void run_methods(void **state, const char *scene_texts, const char *texts)
+/* All feeds, or another one for each method: what differs then is in passes that know no feed. */
+static uint32_t feeds_of(size_t method, bool all)
+{
+    return all || kit_wants_all() ? ~0u : (uint32_t)FM_FEED_RASTER << method % 4;
+}
+
+static void run_methods_on(void **state, const char *scene_texts, const char *texts, bool all)
 {
     scene_kit kit;
     kit_scene scene;
@@ -46,9 +55,14 @@ static void run_methods(void **state, const char *scene_texts, const char *texts
     kit_scene_open(&scene, &kit, scene_texts);
     expect_silence(kit.device, "truth");
     for (size_t i = 0; i < kit.plugins.count; i++)
-        run_method(&scene, kit_method(&kit, i), texts);
+        run_method(&scene, kit_method(&kit, i), feeds_of(i, all), texts);
     kit_scene_close(&scene);
     kit_close(&kit);
+}
+
+static void run_methods(void **state, const char *scene_texts, const char *texts)
+{
+    run_methods_on(state, scene_texts, texts, true);
 }
 
 #define LAYERS "width_px=24 height_px=16 pixel_density=1 tessellation=2 n=6 "
@@ -70,7 +84,7 @@ static void replayed_fragments_are_valid(void **state)
 
 static void full_screen_triangles_are_valid(void **state)
 {
-    run_methods(state, LAYERS, "k=2 buffers=bound full_screen=fragment pool=per-frame");
+    run_methods_on(state, LAYERS, "k=2 buffers=bound full_screen=fragment pool=per-frame", false);
 }
 
 /* Storage images of many layers, in methods that have them. */
@@ -86,8 +100,9 @@ static void images_are_valid(void **state)
         const fm_option *layout = option_find(method, "layout");
         if (layout == NULL || !option_has_value(layout, "image"))
             continue;
-        run_method(&scene, method, "k=4 layout=image buffers=bound");
-        run_method(&scene, method, "k=1 layout=image buffers=bound full_screen=fragment");
+        run_method(&scene, method, ~0u, "k=4 layout=image buffers=bound");
+        run_method(&scene, method, feeds_of(i, false),
+                   "k=1 layout=image buffers=bound full_screen=fragment");
         run++;
     }
     assert_true(run > 0 || kit.plugins.count < 8); /* a build of few methods may have none */
@@ -97,7 +112,7 @@ static void images_are_valid(void **state)
 
 static void an_empty_scene_is_valid(void **state)
 {
-    run_methods(state, "width_px=24 height_px=16 n=0", "k=2 buffers=bound");
+    run_methods_on(state, "width_px=24 height_px=16 n=0", "k=2 buffers=bound", false);
 }
 
 /* ---- a missing barrier ---- */

@@ -43,12 +43,15 @@ static void expect_rows(fm_device *device, const char *texts, const expected *ro
 
 /* Two layers at one pixel, the nearer first.
  *
- * kplus-array, k = 2. clear: counter (4) and slot 0 (8) are stored. store, both times: the cull
- * loads the depth of slot 0 (4), the lock is exchanged (4 and 4, an atomic) and released (4), the
- * depth of slot 0 is loaded again (4), the counter is loaded and stored (4 and 4), the fragment is
- * stored (8). The second one also compares with slot 1 (8). resolve loads the counter (4) and two
- * fragments (16).
- *   loaded   2 (4 + 4 + 4 + 4) + 8 + 20 = 60   stored   12 + 2 (4 + 4 + 4 + 8) = 52
+ * kplus-array, k = 2. clear: the word (4) and slot 0 (8) are stored. store, both times: the cull
+ * loads the depth of slot 0 (4), the lock is taken (4 and 4, an atomic), which brings the word, and
+ * released (4), which stores it; the fragment is stored (8). The second one also compares with slot
+ * 1 (8). resolve loads the word (4) and two fragments (16).
+ *   loaded   2 (4 + 4) + 8 + 20 = 44         stored   12 + 2 (4 + 4 + 8) = 44
+ * With layout=image a texel is loaded whole: the cull loads 4 more each time.
+ *   loaded   2 (8 + 4) + 8 + 20 = 52         stored   as before
+ * With count_in=own the word is loaded and stored (4 and 4) beside the lock.
+ *   loaded   2 (4 + 4 + 4) + 8 + 20 = 52     stored   12 + 2 (4 + 4 + 4 + 8) = 52
  *
  * ab-array. clear: the counter (4). store: an atomic on it (4 and 4), the fragment (8). resolve as
  * above.
@@ -64,9 +67,11 @@ static void one_pixel_of_two_layers_is_as_by_hand(void **state)
 {
     static const expected rows[] = {
         { "null", "", 0, 0, 0 },
-        { "kplus-array", "k=2 lock=spin", 60, 52, 2 },
-        { "kplus-array", "k=2 lock=spin layout=layer", 60, 52, 2 },
-        { "kplus-array", "k=2 lock=spin buffers=address", 60, 52, 2 },
+        { "kplus-array", "k=2 lock=spin", 44, 44, 2 },
+        { "kplus-array", "k=2 lock=spin layout=image", 52, 44, 2 },
+        { "kplus-array", "k=2 lock=spin count_in=own", 52, 52, 2 },
+        { "kplus-array", "k=2 lock=spin layout=layer", 44, 44, 2 },
+        { "kplus-array", "k=2 lock=spin buffers=address", 44, 44, 2 },
         { "ab-array", "", 28, 28, 2 },
         { "ab-array", "buffers=address", 28, 28, 2 },
         { "ab-ll", "node=split", 44, 52, 4 },
@@ -80,7 +85,7 @@ static void one_pixel_of_two_layers_is_as_by_hand(void **state)
 static void two_pixels_are_twice_one(void **state)
 {
     static const expected rows[] = {
-        { "kplus-array", "k=2 lock=spin", 120, 104, 4 },
+        { "kplus-array", "k=2 lock=spin", 88, 88, 4 },
         { "ab-array", "", 56, 56, 4 },
         { "ab-ll", "node=split", 88, 96, 8 },
         { "ab-ll", "node=whole", 104, 112, 8 },

@@ -38,8 +38,8 @@ static void expect_choice(kit_scene *scene, const budget *b, uint32_t feed, cons
 {
     char texts[128], where[256];
     fm_measurement m;
-    snprintf(texts, sizeof texts, "k=%u memory_mib=%u discard=%u kept_in=%s", b->k, b->memory_mib,
-             b->discard, kept_in);
+    snprintf(texts, sizeof texts, "k=%u memory_mib=%u discard=%u kept_in=%s count_in=own", b->k,
+             b->memory_mib, b->discard, kept_in);
     const kit_way way = { "kplus-dynamic", feed, texts };
     const uint32_t k = expected_k(scene->truth, b);
     kit_tell(where, &way);

@@ -12,9 +12,9 @@ enum {
     SOUP_HEIGHT = 45,
     SOUP_TRIANGLES = 96,
     SOUPS_ALL = 1000,
-    SOUPS_SOME = 3,
+    SOUPS_SOME = 2,
     SOUPS_INSIDE = 16,
-    SOUPS_SOME_END = 20
+    SOUPS_SOME_END = 19
 };
 
 /* notes=always chunk=wide: what a GPU does, as far as its subgroups' size is not in it. */

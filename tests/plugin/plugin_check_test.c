@@ -374,6 +374,10 @@ static void plugin_check_rejects_bad_lock_words(void **state)
             "lock_word 'pool': needs one word a pixel");
     REFUSES((m = with_lock_word(), m.passes[STORE].lock_word = "fragments"),
             "lock_word 'fragments': needs one word a pixel");
+    REFUSES((m = with_lock_word(), m.resources[5] = (fm_resource){ .name = "sharer",
+                                                                   .extent = { .per_pixel = 1 },
+                                                                   .shares = "counts" }),
+            "lock_word 'counts': 'sharer' shares its memory");
     REFUSES((m = with_lock_word(), m.resources[1].extent.constant = 1),
             "lock_word 'counts': needs one word a pixel");
 }
