@@ -5,7 +5,7 @@
 // bounded, and who runs out of tries is counted as lost.
 // Whoever takes the lock must see what the last owner stored, and what it stores must be there before
 // the lock is free: an acquire and a release, of buffers and, where the pass has them, images.
-//   FM_MEMORY_MODEL   the exchange that takes the lock acquires, and what frees it releases
+//   FM_MEMORY_MODEL   the atomic that takes the lock acquires, and what frees it releases
 //   FM_LOCK_BARRIERS  without that model, barriers of the owner alone, which order both ways
 //   neither           Mesa's software rasterisers, whose memory is coherent: barriers that invocations pass
 //                     a different number of times are miscompiled there

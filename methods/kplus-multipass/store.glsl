@@ -29,6 +29,6 @@ void store(uvec2 pixel, float depth, uint colour)
         count = counters[i];
         counters[i] = count + 1u;
     }
-    uint farthest_bits;
+    uint farthest_bits = fragment.x; // peel.glsl asks slot 0
     keep_at(pixel, place(pixel, count, fragment, farthest_bits), fragment);
 }
