@@ -162,7 +162,8 @@ static size_t count_incomplete(const fm_claim_points *points)
 }
 
 /* What was left out might have decided otherwise: of all points against a claim that holds, of any
- * point for one that fails. Where no point is whole, nothing was judged. */
+ * point for one that fails. Where no point is whole, nothing was judged; but what must hold fails
+ * by any point. */
 static void count_points(fm_verdict *verdict, const judging *to)
 {
     const fm_claim_points *points = to->points;
@@ -176,7 +177,8 @@ static void count_points(fm_verdict *verdict, const judging *to)
         verdict->kind = FM_VERDICT_IN_PART;
     if (verdict->kind == FM_VERDICT_FAILS && is_any)
         verdict->kind = FM_VERDICT_UNCLEAR;
-    if (verdict->kind != FM_VERDICT_NOT_TESTABLE && verdict->judged == 0)
+    const bool must_hold = verdict->kind == FM_VERDICT_FAILS && to->claim->is_required;
+    if (verdict->kind != FM_VERDICT_NOT_TESTABLE && verdict->judged == 0 && !must_hold)
         verdict->kind = FM_VERDICT_UNCLEAR;
 }
 

@@ -143,6 +143,9 @@ static void rows_to_compare_with_may_lack(void **state)
     expect(claim, &rows, "unclear");
     expect("at_least: 3\nof: { method: a }\nover: { method: [b, c], take: least }\n", &rows,
            "unclear");
+    expect("required: true\nat_least: 3\nof: { method: a }\n"
+           "over: { method: [b, c], take: least }\n",
+           &rows, "fails");
     expect("form: any\nat_least: 1.5\nof: { method: a }\n"
            "over: { method: [b, c], take: least }\n",
            &rows, "unclear");
